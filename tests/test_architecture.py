@@ -142,6 +142,65 @@ def test_no_module_is_too_long() -> None:
     assert not long
 
 
+PARSERS = {"search", "match", "fullmatch", "findall", "finditer", "sub"}
+"""Functions of `re` that read a text by a pattern."""
+SPLITTERS = {"split", "rsplit", "partition", "rpartition", "startswith", "endswith", "removeprefix", "removesuffix"}
+"""Methods of a text that read a part of it."""
+
+
+def parsed_messages(code: str) -> list[int]:
+    """Return the lines that read a part of the message of an error, finding or repair from its text."""
+    lines = []
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            texts = node.args if node.func.attr in PARSERS else [node.func.value] if node.func.attr in SPLITTERS else []
+            lines += [text.lineno for text in texts if isinstance(text, ast.Attribute) and text.attr == "message"]
+    return lines
+
+
+def formatted_suggestions(code: str) -> list[int]:
+    """Return the lines that format a suggestion into a text, which is no `DefectMessage` then."""
+    texts = [node for node in ast.walk(ast.parse(code)) if isinstance(node, ast.JoinedStr)]
+    calls = [part.value for text in texts for part in text.values if isinstance(part, ast.FormattedValue)]
+    return [
+        call.lineno
+        for call in calls
+        if isinstance(call, ast.Call)
+        and isinstance(call.func, ast.Name)
+        and call.func.id in ("Suggestion", "did_you_mean", "near_path")
+    ]
+
+
+def test_messages_keep_their_parts() -> None:
+    found = {}
+    for path in ROOT.rglob("*.py"):
+        name, text = path.relative_to(ROOT).as_posix(), path.read_text("utf-8")
+        if not name.startswith("lint/report/"):
+            found[name] = parsed_messages(text)
+        if name.startswith(
+            ("lint/", "description/urdf/", "description/xacro/evaluation/", "description/xacro/recovery/")
+        ):
+            found[name] = found.get(name, []) + formatted_suggestions(text)
+    assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        'name = finding.message.split("`")[1]',
+        'names = re.findall("`(.*?)`", finding.message)',
+        'effect = repair.message.partition("; ")[2]',
+    ],
+)
+def test_a_message_that_is_read_back_is_found(use: str) -> None:
+    assert parsed_messages(use) == [1]
+
+
+def test_a_suggestion_in_a_formatted_text_is_found() -> None:
+    assert formatted_suggestions('message = f"no `{name}`{did_you_mean(name, names)}"') == [1]
+    assert formatted_suggestions('message = f"no `{name}`" + did_you_mean(name, names)') == []
+
+
 def test_every_public_name_resolves() -> None:
     for name in urdfkit.__all__:
         assert getattr(urdfkit, name) is not None

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from threading import Lock
 from typing import Any
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.errors import UsageError, nearest
 
 Build = Callable[[], Any]
@@ -194,10 +195,10 @@ def absolute(name: str) -> str:
     return "/" + "/".join(part for part in name.split("/") if part)
 
 
-def nearest_topic(name: str, topics: Sequence[str]) -> str | None:
-    """Return the topic with the nearest name, or with the nearest last part of its name; None if none is similar."""
+def similar_topic(name: str, topics: Sequence[str]) -> str:
+    """Suggest the topic with the nearest name, or with the nearest last part of its name; empty if none is similar."""
     if near := nearest(name, topics):
-        return near
+        return Suggestion(near, name)
     by_end = {topic.rpartition("/")[2]: topic for topic in reversed(topics)}
     end = nearest(name.rpartition("/")[2], by_end)
-    return None if end is None else by_end[end]
+    return Suggestion(None if end is None else by_end[end], name)

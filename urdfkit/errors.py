@@ -24,6 +24,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextvars import ContextVar
 
+from urdfkit.defect_message import Suggestion
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -145,15 +147,6 @@ def one_line(text: str) -> str:
     if text.isprintable():
         return text
     return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
-
-
-def kind_of(message: str) -> str:
-    """Return a message without its names, tags and numbers, which is the same for messages with one cause."""
-    import re
-
-    return re.sub(
-        r"`[^`]*`|<[^>]*>|(?<=\bfile )\S+|(?<=\bmesh )\S+|-?\d[\d.e+-]*", "…", message.partition("; did you mean ")[0]
-    )
 
 
 def bug(error: BaseException, package: str = "urdfkit") -> str:
@@ -304,33 +297,10 @@ def nearest(name: str, candidates: Iterable[str], *, cutoff: float = 0.6) -> str
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:
-    """Return ``; did you mean `x`?`` for the candidate nearest to `name`, or an empty string.
+    """Return the `Suggestion` of the candidate nearest to `name`; empty if none is similar.
 
     Args:
         name: the name the user wrote.
         candidates: the valid names.
     """
-    return suggestion(nearest(name, candidates))
-
-
-def suggestion(name: str | None) -> str:
-    """Return ``; did you mean `x`?`` for a name, or an empty string for None."""
-    return f"; did you mean `{name}`?" if name is not None else ""
-
-
-def suggested(message: str) -> str:
-    """Return the name that a message suggests at its end, see `suggestion`; an element as ``<name>``; else empty."""
-    _, separator, name = message.rpartition("did you mean ")
-    is_whole = separator and name.endswith("?") and (name[:1] == "`" == name[-2:-1] or name[:1] + name[-2:-1] == "<>")
-    return name[:-1].strip("`") if is_whole else ""
-
-
-def with_effect(defect: str, effect: str) -> str:
-    """Return the description of a defect and its effect, in front of a suggestion at the end of the description.
-
-    Args:
-        defect: message of an error, such as ``no joint `elbw`; did you mean `elbow`?``.
-        effect: the consequence, such as ``the controller is ignored``.
-    """
-    before, separator, suggested = defect.partition("; did you mean ")
-    return f"{before}; {effect}{separator}{suggested}"
+    return Suggestion(nearest(name, candidates), name)

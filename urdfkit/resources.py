@@ -10,7 +10,8 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfkit.errors import ResourceError, UsageError, did_you_mean, suggestion
+from urdfkit.defect_message import Suggestion
+from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -117,7 +118,7 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
     if len(models) > 1:
         key, equals, value = models[-1].partition("=")
         meant = f"{key}:={value}" if equals else None
-        hint = suggestion(meant) or "; xacro arguments are key:=value"
+        hint = Suggestion(meant) or "; xacro arguments are key:=value"
         raise UsageError(f"one ROBOT at a time, not {len(models)}: {' '.join(models)}{hint}")
     arguments: dict[str, str] = {}
     for word in words:

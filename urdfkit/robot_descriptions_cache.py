@@ -11,7 +11,8 @@ import os
 from importlib.util import find_spec
 from pathlib import Path
 
-from urdfkit.errors import ResourceError, did_you_mean, nearest, suggestion
+from urdfkit.defect_message import Suggestion
+from urdfkit.errors import ResourceError, did_you_mean, nearest
 from urdfkit.record import record
 
 _MAX_DEPTH = 20
@@ -71,7 +72,7 @@ def how_to_get(word: str) -> str:
     meant = nearest(word, description_names()) or f"{stem}_description"
     return (
         f"; for robots of the package robot_descriptions run `pip install robot_descriptions` "
-        f"and `python -m robot_descriptions pull {meant}`{suggestion(meant) if meant != word else ''}"
+        f"and `python -m robot_descriptions pull {meant}`{Suggestion(meant) if meant != word else ''}"
     )
 
 

@@ -11,8 +11,8 @@ from typing import Any
 from uuid import uuid4
 
 from urdfkit.bridges.json_messages import from_json
-from urdfkit.bus import Bus, absolute, nearest_topic
-from urdfkit.errors import UsageError, suggestion
+from urdfkit.bus import Bus, absolute, similar_topic
+from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields
 from urdfkit.messages.control import GOAL_ID
 
@@ -75,7 +75,7 @@ def find_action(bus: Bus, name: str) -> ActionServer:
     found = actions(bus)
     full = absolute(name)
     if full not in found:
-        raise UsageError(f"unknown action `{full}`{suggestion(nearest_topic(full, list(found)))}")
+        raise UsageError(f"unknown action `{full}`{similar_topic(full, list(found))}")
     return found[full]
 
 

@@ -11,8 +11,8 @@ from urdfkit.bridges.bridge import CAPACITY, MOST_BYTES, CallQueue, is_latched, 
 from urdfkit.bridges.message_builder import MessageBuilder
 from urdfkit.bridges.published_message import PublishedMessage
 from urdfkit.bridges.service import Service, respond
-from urdfkit.bus import Build, Bus, Subscription, absolute, nearest_topic
-from urdfkit.errors import UsageError, suggestion
+from urdfkit.bus import Build, Bus, Subscription, absolute, similar_topic
+from urdfkit.errors import UsageError
 from urdfkit.messages import full_type_name
 
 Receive = Callable[[PublishedMessage], None]
@@ -80,7 +80,7 @@ class Graph:
         actual = next((each.type for each in self.bus.topics if each.name == topic), None)
         if actual is None:
             if full is None:
-                raise UsageError(f"no topic `{topic}`{suggestion(nearest_topic(topic, list(self.topics)))}")
+                raise UsageError(f"no topic `{topic}`{similar_topic(topic, list(self.topics))}")
             return full
         if full is not None and full != actual:
             raise UsageError(f"topic `{topic}` has type {actual}, not {full}")

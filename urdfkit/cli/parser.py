@@ -8,7 +8,8 @@ import re
 import sys
 from itertools import takewhile
 
-from urdfkit.errors import UsageError, nearest, similar, suggestion
+from urdfkit.defect_message import Suggestion
+from urdfkit.errors import UsageError, nearest, similar
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -142,14 +143,14 @@ class Parser(argparse.ArgumentParser):
         options, word = self._option_string_actions, words[0]
         subcommands = self._commands.choices or () if self._commands is not None else ()
         if (meant := OTHER_OPTIONS.get(word)) in options or (meant := word.lstrip("-")) in subcommands:
-            hint = suggestion(meant)
+            hint: str = Suggestion(meant)
         elif word == "--json" and "--format" in options:
-            hint = suggestion("--format json")
+            hint = Suggestion("--format json")
         elif word in ROBOT_OPTIONS and any(action.dest == "model" for action in self._actions):
             hint = f"; it is a positional argument: {self.prog} ROBOT"
         else:
             names = {option.lstrip("-"): option for option in options if option.startswith("--")}
-            hint = self.elsewhere(word) or suggestion(names.get(nearest(word.lstrip("-"), names) or ""))
+            hint = self.elsewhere(word) or Suggestion(names.get(nearest(word.lstrip("-"), names) or ""))
         self._refuse(f"unrecognized arguments: {' '.join(words)}{hint}")
 
     def _refuse(self, message: str) -> NoReturn:
@@ -180,7 +181,7 @@ class Parser(argparse.ArgumentParser):
         listed = f"{', '.join(choices[:-1])} or {choices[-1]}"
         if action is not self._commands:
             near = next(iter(similar(str(value), choices, cutoff=0.7)), None)  # `tcsh` is no misspelt `zsh`
-            hint = suggestion(near) or f"; use {listed}"
+            hint = Suggestion(near) or f"; use {listed}"
             raise argparse.ArgumentError(action, f"`{value}` is not available{hint}")
         self._refuse_misspelt_option()
         if (option := f"--{value}") in self._option_string_actions:
@@ -189,7 +190,7 @@ class Parser(argparse.ArgumentParser):
         if near is None and self.default_subcommand:
             hint = f"; did you mean `{self.prog} {self.default_subcommand} {value}`?"
         else:
-            hint = suggestion(near) or f"; use {listed}"
+            hint = Suggestion(near) or f"; use {listed}"
         self._refuse(f"no {str(action.metavar).lower()} `{value}`{hint}")
 
     def _match_argument(self, action: argparse.Action, arg_strings_pattern: str) -> int:

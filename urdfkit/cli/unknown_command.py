@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from urdfkit.errors import UsageError, nearest, suggestion
+from urdfkit.defect_message import Suggestion
+from urdfkit.errors import UsageError, nearest
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def refuse(word: str, commands: Sequence[str], following: Sequence[str] = ()) ->
         meant = f"{following[0]} --help"
     elif word not in OTHER_NAMES and _is_robot(word):
         meant = f"view {word}"
-    hint = suggestion(f"urdfkit {meant}") if meant else "; `urdfkit --help` lists the commands"
+    hint = Suggestion(f"urdfkit {meant}") if meant else "; `urdfkit --help` lists the commands"
     raise UsageError(f"unknown command `{word}`{hint}")
 
 

@@ -238,7 +238,7 @@ class _Structure:
                 continue
             if mimic.joint not in by_name:  # else the joint was left out
                 hint = self._similar(mimic.joint, (name for name in by_name if name != joint.name))
-                message = f"joint `{joint.name}` mimics the unknown joint `{mimic.joint}`{hint}"
+                message = f"joint `{joint.name}` mimics the unknown joint `{mimic.joint}`" + hint
                 self._add(message, "it moves by itself", "J416", mimic.element, joint=joint.name)
             self.joints[i] = replace(joint, mimic=None)
 

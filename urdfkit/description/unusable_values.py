@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.queries import Owner, owners
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Problem, Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import ModelError, with_effect
+from urdfkit.errors import ModelError
 from urdfkit.position import Position
 from urdfkit.record import field, record
 

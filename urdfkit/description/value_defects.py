@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import isfinite
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.queries import owners
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Joint, Robot
@@ -12,7 +13,7 @@ from urdfkit.description.urdf.version import FIRST_VERSIONS, RATES, VERSIONS, sh
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.written_attributes import WrittenAttributes
-from urdfkit.errors import ModelError, with_effect
+from urdfkit.errors import ModelError
 from urdfkit.record import record
 
 TYPE_CHECKING = False

@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Joint, Robot
-from urdfkit.errors import KinematicsError, did_you_mean, with_effect
+from urdfkit.errors import KinematicsError, did_you_mean
 
 _SINGLE = ("revolute", "continuous", "prismatic")
 
@@ -92,7 +93,7 @@ def _follow(joints: Mapping[str, Joint], joint: Joint, resolved: dict[str, Coupl
         if master is None:
             hint = did_you_mean(at.mimic.joint, [name for name in joints if name not in passed])
             raise KinematicsError(
-                f"joint `{at.name}` mimics the unknown joint `{at.mimic.joint}`{hint}", position=place
+                f"joint `{at.name}` mimics the unknown joint `{at.mimic.joint}`" + hint, position=place
             )
         at = master
     for each in reversed(passed.values()):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.mimic import Coupling
@@ -55,8 +56,8 @@ def unknown_variable(robot: Robot, couplings: Mapping[str, Coupling], names: Col
         owner, _, part = name.rpartition("/")
         moved = f"{owner}/trans_{part}"
         independent = [each for each in names if each not in couplings]
-        hint = f"; did you mean `{moved}`?" if moved in names else _nearest_or_some(name, independent, "movable joints")
-        return f"no movable joint `{name}` in robot `{robot.name}`{hint}"
+        hint = Suggestion(moved) if moved in names else _nearest_or_some(name, independent, "movable joints")
+        return f"no movable joint `{name}` in robot `{robot.name}`" + hint
     if joint.type in PARTS:
         parts = ", ".join(f"`{name}/{part}`" for part in PARTS[joint.type])
         return f"joint `{name}` is {joint.type} and has more than one position: {parts}"
@@ -68,7 +69,7 @@ def unknown_frame(robot: Robot, name: str) -> str:
     hint = _nearest_or_some(name, robot.link_by_name, "frames")
     if (joint := robot.joint_by_name.get(name)) is not None:
         hint = f"; `{name}` is a joint, its frame is that of its child link `{joint.child}`"
-    return f"no frame `{name}` in robot `{robot.name}`{hint}"
+    return f"no frame `{name}` in robot `{robot.name}`" + hint
 
 
 def _nearest_or_some(name: str, names: Collection[str], what: str) -> str:

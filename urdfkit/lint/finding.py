@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import DefectMessage, Suggestion
 from urdfkit.description.xml.source import Expansion, Span
-from urdfkit.errors import suggested
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -69,6 +69,7 @@ class Finding:
         cause: words that findings of one rule share if they have one cause; empty if the message is the same.
         kind: which of the rule's defects it is, where other rules depend on it, see `consequences`; not in the output.
         names: further names that the finding is about, such as both joints of a pair; not in the output.
+        suggestion: the valid name that message or help suggest in place of a misspelt one; None without one.
         related: the findings of other places with the same cause, where findings are grouped.
         variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
 
@@ -96,6 +97,7 @@ class Finding:
     cause: str = ""
     kind: str = ""
     names: tuple[str, ...] = ()
+    suggestion: Suggestion | None = None
     related: tuple[Finding, ...] = ()
     variant: str = ""
 
@@ -135,7 +137,7 @@ class Finding:
             >>> [finding.meant for finding in urdfkit.lint("typo.urdf")]
             ['joint']
         """
-        return suggested(self.message) or suggested(self.help or "")
+        return self.suggestion.meant if self.suggestion is not None else ""
 
     @property
     def expansions(self) -> tuple[Expansion, ...]:
@@ -190,6 +192,15 @@ class EntryResult:
     used: tuple[tuple[str, str], ...] = ()
     refused: str = ""
     unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
+def suggestion_of(*texts: str | None) -> Suggestion | None:
+    """Return the suggestion at the end of the first of message and help that ends with one."""
+    for text in texts:
+        found = text.suggestion if isinstance(text, DefectMessage) and not text.tail else text
+        if isinstance(found, Suggestion) and found:
+            return found
+    return None
 
 
 def _place(span: Span) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import nearest as nearest
 from urdfkit.lint.finding import Edit, Finding, Fix, Safety
@@ -140,7 +141,7 @@ def more_children(model: Model, element: Element, written: str, safety: Safety, 
 def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:
     """Return the candidate most similar to a misspelt name (or None), and ``; did you mean …`` (or an empty string)."""
     near = nearest(name, candidates, cutoff=0.7)
-    return near, f"; did you mean `{near}`?" if near else ""
+    return near, Suggestion(near, name)
 
 
 def nearest_name(finding: Finding, document: Document) -> Fix | None:
@@ -153,16 +154,17 @@ def nearest_name(finding: Finding, document: Document) -> Fix | None:
         finding: a finding without fix, in the file of the document.
         document: a launch, YAML, SRDF or package file.
     """
-    if not (meant := finding.meant) or finding.severity == "note":
+    suggestion = finding.suggestion
+    if suggestion is None or finding.severity == "note":
         return None
     source, span = document.source, finding.span
     start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
-    title = f"Replace with `{meant}`"
+    meant, title = suggestion.meant, f"Replace with `{suggestion.meant}`"
     if meant.startswith("<"):
         tag = document.tag_at(span.line, span.column) or document.tag_at(span.line, span.column - 1)
         return Fix("unsafe", title, renamed(document, tag, meant[1:-1])) if tag is not None else None
     text = source.text[start:end]
-    for name in (*re.findall(r"`([^`]+)`", finding.message.rpartition("; did you mean ")[0]), text):
+    for name in (suggestion.written, text):
         places = [at.start() for at in re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", text)]
         if "/" in name and "/" not in meant:
             before, name = name[: name.rindex("/") + 1], name.rpartition("/")[2]

@@ -13,7 +13,7 @@ from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin, Position, Span
 from urdfkit.errors import nearest, shortened
-from urdfkit.lint.finding import Finding, Fix, Severity
+from urdfkit.lint.finding import Finding, Fix, Severity, suggestion_of
 from urdfkit.lint.model.model import Model as Model
 from urdfkit.lint.model.tags import Document
 
@@ -108,7 +108,8 @@ class Rule:
             severity: overrides the rule's severity.
             details: further attributes of `Finding`, such as ``help``.
         """
-        return Finding(self.code, self.name, severity or self.severity, message, span, **details)
+        details["suggestion"] = suggestion_of(message, details.get("help"))
+        return Finding(self.code, self.name, severity or self.severity, str(message), span, **details)
 
 
 class SourceRule(Rule):

@@ -108,7 +108,7 @@ def _read(path: Path) -> bytes:
         if path.is_dir():
             raise ResourceError(f"mesh {path.name} is a folder")
         if not path.is_file():
-            raise ResourceError(f"missing mesh file {path}{near_path(path)}", kind="file")
+            raise ResourceError(f"missing mesh file {path}" + near_path(path), kind="file")
         if (size := path.stat().st_size) > MAX_BYTES:
             raise ResourceError(
                 f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported; decimate it"

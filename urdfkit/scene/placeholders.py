@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import (
     Box,
@@ -22,7 +23,7 @@ from urdfkit.description.urdf.robot import (
 )
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import ModelError, with_effect
+from urdfkit.errors import ModelError
 from urdfkit.linear_algebra import Array
 from urdfkit.scene.colors import DEFAULT
 from urdfkit.scene.placeholder_sizes import PlaceholderSizes

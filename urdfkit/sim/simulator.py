@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
+from urdfkit.bus import Bus, Subscription, absolute, similar_topic
 from urdfkit.description import Robot
 from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.errors import SimulationError, UnknownNameError, suggestion
+from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import Array
 from urdfkit.messages import TWIST, TWIST_STAMPED, from_fields, header, message_type, require_message_types, twist
 from urdfkit.scene import Scene
@@ -358,7 +358,7 @@ class Simulator(Copyable):
         """
         names = [each.name for each in self.bus.topics]
         if not wait and (name := absolute(topic)) not in names:
-            hint = suggestion(nearest_topic(name, names)) or "; wait=True accepts topics that are published later"
+            hint = similar_topic(name, names) or "; wait=True accepts topics that are published later"
             raise UnknownNameError(f"no topic `{name}` in the simulation{hint}")
         return self.bus.subscribe(topic, type, callback)
 
@@ -384,7 +384,7 @@ class Simulator(Copyable):
         """
         subscribed = [each.name for each in self.bus.topics if each.subscribers]
         if (name := absolute(topic)) not in subscribed:
-            raise UnknownNameError(f"topic `{name}` has no subscribers{suggestion(nearest_topic(name, subscribed))}")
+            raise UnknownNameError(f"topic `{name}` has no subscribers{similar_topic(name, subscribed)}")
         self.bus.publish(topic, type, from_fields(type, message) if isinstance(message, dict) else message)
 
     def link_poses(self) -> Array:

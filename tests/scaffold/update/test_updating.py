@@ -130,7 +130,9 @@ def test_an_outcome_that_only_had_better_be_different_is_made_and_told(template,
         edited = (folder / "box/more.txt").read_text() == "mine"
         size = (folder / "box/src/box.txt").read_text().split()[2]
         return [
-            PackageFault(f"odd {number} (box.txt:1)", is_error=False) for number in range(5) if edited and size == "2"
+            PackageFault(f"odd {number}", is_error=False, file="box.txt", line=1)
+            for number in range(5)
+            if edited and size == "2"
         ]
 
     recipe, into = find_recipe(template, place)

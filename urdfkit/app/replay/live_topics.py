@@ -10,8 +10,8 @@ from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.node.node import End, Node, UnknownTypeError, Writer, publisher_quality, subscription_quality
-from urdfkit.bus import Bus, Topic, nearest_topic
-from urdfkit.errors import ResourceError, UsageError, suggestion
+from urdfkit.bus import Bus, Topic, similar_topic
+from urdfkit.errors import ResourceError, UsageError
 from urdfkit.messages import from_fields
 
 SEARCH = 0.5
@@ -151,7 +151,7 @@ class LiveTopics:
     def _nearest(self, topic: str, type: str) -> str:
         """Return a suggestion of topics of a type."""
         same = sorted(name for name, other in self.node.topics().items() if other == type and name != topic)
-        return suggestion(nearest_topic(topic, same)) or (f"; topics of this type: {', '.join(same)}" if same else "")
+        return similar_topic(topic, same) or (f"; topics of this type: {', '.join(same)}" if same else "")
 
     def _note(self, line: str) -> None:
         if line not in self._reported:

@@ -11,8 +11,8 @@ from urdfkit.bridges.json_messages import from_json
 from urdfkit.bridges.node.node import UnknownTypeError
 from urdfkit.bridges.ros2.rclpy_messages import rclpy_message, rclpy_type
 from urdfkit.bridges.ros2.rclpy_node import DISCOVERY, RclpyNode
-from urdfkit.bus import absolute, nearest_topic
-from urdfkit.errors import ResourceError, UsageError, suggestion
+from urdfkit.bus import absolute, similar_topic
+from urdfkit.errors import ResourceError, UsageError
 from urdfkit.messages import typestore
 from urdfkit.messages.conversion import converted
 
@@ -49,7 +49,7 @@ class RclpyActions:
         full, end = absolute(name), time.monotonic() + DISCOVERY
         while full not in (types := self.types()):
             if time.monotonic() > end:
-                raise UsageError(f"unknown action `{full}`{suggestion(nearest_topic(full, list(types)))}")
+                raise UsageError(f"unknown action `{full}`{similar_topic(full, list(types))}")
             time.sleep(0.05)
         action = ActionServer(full, types[full], is_rcl=True)
         if (kind := rclpy_type(action.type)) is None:

@@ -12,8 +12,8 @@ from uuid import uuid4
 
 from urdfkit.bridges.actions import ABORTED, NAMES, REJECTED
 from urdfkit.bridges.rosbridge.rosbridge_node import RosbridgeNode
-from urdfkit.bus import absolute, nearest_topic
-from urdfkit.errors import UsageError, suggestion
+from urdfkit.bus import absolute, similar_topic
+from urdfkit.errors import UsageError
 
 
 class ServerActions:
@@ -52,7 +52,7 @@ class ServerActions:
         """
         full, types = absolute(name), self.types()
         if full not in types:
-            raise UsageError(f"unknown action `{full}`{suggestion(nearest_topic(full, list(types)))}")
+            raise UsageError(f"unknown action `{full}`{similar_topic(full, list(types))}")
         id = uuid4().hex
         self._goals[id] = goal = RosbridgeGoal(self._node, full, id, feedback, ended)
         goal.request("send_action_goal", action_type=types[full], args=fields or {}, feedback=True)

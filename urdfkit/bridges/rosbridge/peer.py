@@ -16,8 +16,8 @@ from urdfkit.bridges.rosbridge.incoming_goals import ClientGoals
 from urdfkit.bridges.rosbridge.rosapi import Rosapi
 from urdfkit.bridges.rosbridge.subscription import encoder
 from urdfkit.bridges.websocket.send_queue import MAX_MESSAGES, SendQueue, SubscriptionQueue
-from urdfkit.bus import absolute, nearest_topic
-from urdfkit.errors import UrdfkitError, UsageError, suggestion
+from urdfkit.bus import absolute, similar_topic
+from urdfkit.errors import UrdfkitError, UsageError
 
 LEVELS = ("none", "error", "warning", "info")
 IGNORED = ("unadvertise", "auth", "unadvertise_service", "service_response")
@@ -66,9 +66,7 @@ class RosbridgePeer:
             if op in UNSUPPORTED:
                 raise UsageError(f"`{op}` is not supported by a simulation")
             if op not in self._operations and op not in IGNORED:
-                raise UsageError(
-                    f"unknown operation `{op}`{suggestion(nearest_topic(str(op), list(self._operations)))}"
-                )
+                raise UsageError(f"unknown operation `{op}`{similar_topic(str(op), list(self._operations))}")
             if op in self._operations:
                 self._operations[op](message)
         except (UrdfkitError, RecursionError, ValueError) as error:
@@ -157,7 +155,7 @@ class RosbridgePeer:
                 return
             service = self._graph.services.get(name)
             if service is None:
-                near = suggestion(nearest_topic(name, list(self._graph.services)))
+                near = similar_topic(name, list(self._graph.services))
                 raise UsageError(f"no service `{name}`{near}")
             self._graph.request(service, from_json(service.request, arguments or None), self._size, done)
         except UrdfkitError as error:

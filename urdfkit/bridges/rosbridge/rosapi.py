@@ -12,8 +12,8 @@ from typing import Any
 from urdfkit.bridges.actions import actions
 from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.rosbridge.type_details import type_details
-from urdfkit.bus import absolute, nearest_topic
-from urdfkit.errors import UsageError, suggestion
+from urdfkit.bus import absolute, similar_topic
+from urdfkit.errors import UsageError
 from urdfkit.messages import full_type_name, typestore
 
 PREFIX = "/rosapi/"
@@ -68,7 +68,7 @@ class Rosapi:
         """
         call = self._calls.get(service.removeprefix(PREFIX))
         if call is None:
-            near = suggestion(nearest_topic(service, self._services))
+            near = similar_topic(service, self._services)
             raise UsageError(f"no service `{service}`{near}")
         return call(arguments if isinstance(arguments, dict) else {})
 
@@ -106,7 +106,7 @@ class Rosapi:
         name = _parameter(_text(arguments, "name"))
         if name in self._graph.parameters:
             return {"value": json.dumps(self._graph.parameters[name]), "successful": True, "reason": ""}
-        reason = f"no parameter `{name}`{suggestion(nearest_topic(name, list(self._graph.parameters)))}"
+        reason = f"no parameter `{name}`{similar_topic(name, list(self._graph.parameters))}"
         return {"value": arguments.get("default") or '""', "successful": False, "reason": reason}
 
 

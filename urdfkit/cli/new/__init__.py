@@ -19,7 +19,8 @@ from urdfkit.cli.new.template_options import KindParser, add_update, chosen
 from urdfkit.cli.new.update import add_picture, findings
 from urdfkit.cli.new.written_packages import misplaced, report_written
 from urdfkit.cli.parser import Parser
-from urdfkit.errors import UrdfkitError, UsageError, did_you_mean, nearest, suggestion
+from urdfkit.defect_message import Suggestion
+from urdfkit.errors import UrdfkitError, UsageError, did_you_mean, nearest
 from urdfkit.scaffold import (
     Question,
     Template,
@@ -69,7 +70,7 @@ def _suggestion(parser: Parser, option: str) -> str:
     if own := did_you_mean(option, parser._option_string_actions):
         return own
     near = nearest(option, kind_by_option)
-    return suggestion(near and f"urdfkit new {kind_by_option[near]} NAME {near}")
+    return Suggestion(near and f"urdfkit new {kind_by_option[near]} NAME {near}")
 
 
 def run(arguments: argparse.Namespace) -> int:

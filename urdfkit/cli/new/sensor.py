@@ -4,7 +4,8 @@ import argparse
 import sys
 
 from urdfkit.cli.new.change_workflow import add_description, apply, description, number, vector
-from urdfkit.errors import UsageError, did_you_mean, suggestion
+from urdfkit.defect_message import Suggestion
+from urdfkit.errors import UsageError, did_you_mean
 
 SUMMARY = "a sensor, added to an existing description"
 _KINDS = ("lidar", "lidar3d", "camera", "depth", "imu", "gps")
@@ -57,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"new sensor: pass a sensor: {', '.join(_KINDS)}")
     if arguments.sensor not in _KINDS:
         called = _ALIASES.get(arguments.sensor.lower())
-        near = suggestion(called) or did_you_mean(arguments.sensor, _KINDS)
+        near = Suggestion(called) or did_you_mean(arguments.sensor, _KINDS)
         raise UsageError(f"new sensor: unknown sensor `{arguments.sensor}`{near or '; use ' + ', '.join(_KINDS)}")
     model, robot, generation = description(arguments)
     rate = None

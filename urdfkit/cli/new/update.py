@@ -161,7 +161,7 @@ def findings(folder: Path, *, package_path: Path | None = None) -> list[PackageF
         return []
     found = lint([folder], package_path=[folder, *([package_path] if package_path is not None else [])])
     return [
-        PackageFault(f"{f.code} {f.message} ({Path(f.file).name}:{f.line})", f.severity == "error")
+        PackageFault(f"{f.code} {f.message}", f.severity == "error", Path(f.file).name, f.line)
         for f in found
         if f.severity != "note"
     ]

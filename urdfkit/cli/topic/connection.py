@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
-from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, suggestion
+from urdfkit.errors import MissingDependencyError, ResourceError, UsageError
 
 if TYPE_CHECKING:
     from urdfkit.app.replay.discovery import Search
@@ -138,13 +138,13 @@ def find_topic(rows: Sequence[Row], name: str) -> Row:
     Raises:
         UsageError: the topic is unknown; names the nearest.
     """
-    from urdfkit.bus import absolute, nearest_topic
+    from urdfkit.bus import absolute, similar_topic
 
     full = absolute(name)
     for row in rows:
         if row.name == full:
             return row
-    raise UsageError(f"unknown topic `{full}`{suggestion(nearest_topic(full, [row.name for row in rows]))}")
+    raise UsageError(f"unknown topic `{full}`{similar_topic(full, [row.name for row in rows])}")
 
 
 async def messages(

@@ -49,4 +49,4 @@ def parameter_file(
             return found[0]
     if in_any_case and packages is not None and (other := packages.in_any_case(path, text, position)) is not None:
         return other
-    raise ResourceError(f"no file {text}{near_path(path)}", kind="file")
+    raise ResourceError(f"no file {text}" + near_path(path), kind="file")

@@ -6,12 +6,13 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.packages.package_search import PackageSearch
 from urdfkit.description.packages.related_files import CODE, around, state_of
 from urdfkit.description.packages.similar_names import near_package, similar_file
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ResourceError, suggestion
+from urdfkit.errors import ResourceError
 from urdfkit.position import Position
 
 NOT_READ = "is not read, as --confined hides the environment"
@@ -127,7 +128,7 @@ class Packages:
                 hint = "" if is_long else near_package(name, self._package_search.seen)
                 shown = f"{name[:60]}…" if is_long else name
                 advice = "" if hint else "; add folders with --package-path"
-                message = f"no package `{shown}` (searched: {self._package_search.places_searched()}{advice}){hint}"
+                message = f"no package `{shown}` (searched: {self._package_search.places_searched()}{advice})" + hint
                 self.answers[("find", name)] = f"!{message}"
                 raise ResourceError(message, kind="package")
             self._found[name] = found
@@ -210,7 +211,7 @@ class Packages:
             if exists(decoded):
                 return decoded
         near = similar_file(path, found)
-        raise ResourceError(f"no file {uri}{suggestion(near)}", kind="file", near=near)
+        raise ResourceError(f"no file {uri}" + Suggestion(near), kind="file", near=near)
 
     def relocate(self, path: str | Path) -> Path | None:
         """Return the path in the source folder for a path that exists only in an installed package.

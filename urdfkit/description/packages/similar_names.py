@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
-from urdfkit.errors import did_you_mean, may_suggest, nearest, suggestion
+from urdfkit.errors import did_you_mean, may_suggest, nearest
 
 
 def near_package(name: str, packages: Iterable[str]) -> str:
@@ -21,7 +22,7 @@ def near_package(name: str, packages: Iterable[str]) -> str:
 
 def near_path(path: Path, user: Path | None = None) -> str:
     """Return a did-you-mean hint for the first part of `path` that does not exist; see `similar_file`."""
-    return suggestion(similar_file(path, user=user))
+    return Suggestion(similar_file(path, user=user))
 
 
 def similar_file(path: Path, found: dict[Path, str | None] | None = None, user: Path | None = None) -> str | None:

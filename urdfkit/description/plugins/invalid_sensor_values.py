@@ -73,7 +73,7 @@ def _unknown_noise(noise: Element) -> tuple[Element, str] | None:
     kind = (written.text if written is not None else noise.get("type")) or "none"
     if kind in NOISES:
         return None
-    return written or noise, f"the type of the noise is `{kind}`, not {', '.join(NOISES)}{did_you_mean(kind, NOISES)}"
+    return written or noise, f"the type of the noise is `{kind}`, not {', '.join(NOISES)}" + did_you_mean(kind, NOISES)
 
 
 def senseless_scan(lidar: Element) -> Senseless:
@@ -130,7 +130,7 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
     written = image.find("format") if image is not None else None
     if written is not None and written.text and written.text.strip().upper() not in PIXEL_FORMATS:
         hint = did_you_mean(written.text, sorted(PIXEL_FORMATS)) or "; use `R8G8B8` for colours or `L8` for grey"
-        yield written, f"unknown pixel format `{written.text}`{hint}"
+        yield written, f"unknown pixel format `{written.text}`" + hint
     near, far = _number(clip, "near", 0.1), _number(clip, "far", 100.0)
     if not isnan(near + far) and not near < far:
         yield clip or camera, f"the range of the camera, {near:g} m to {far:g} m, is empty"

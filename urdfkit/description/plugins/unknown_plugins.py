@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable
 
 from urdfkit import errors
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.plugins.lookup import ALL_SPECS, stem
 from urdfkit.description.plugins.sensors.table import INSTEAD, SENSOR_TYPES
 from urdfkit.description.urdf.robot import Plugin, SensorTag
@@ -27,8 +28,7 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
         return f"plugin{which} has no filename and is ignored{left_out}"
     name = stem(plugin.filename)
     if near := nearest(name, others):
-        suggestion = f"did you mean `{plugin.filename.replace(name, near)}`?"
-        return f"no plugin `{plugin.filename}`{left_out}; {suggestion}"
+        return f"no plugin `{plugin.filename}`{left_out}" + Suggestion(plugin.filename.replace(name, near))
     if _GAZEBO.search(name):
         return f"plugin `{plugin.filename}` is not simulated yet{left_out}"
     return f"unknown plugin `{plugin.filename}`: urdfkit does not simulate it{left_out}"
@@ -50,7 +50,7 @@ def unsupported(sensor: SensorTag, *, simulated: bool) -> str:
     if kind in INSTEAD:
         return f"sensors of type `{kind}` are not simulated: {INSTEAD[kind]}; {left_out}"
     if kind not in SENSOR_TYPES:
-        return f"unknown sensor type `{kind}`; {left_out}{errors.did_you_mean(kind, SENSOR_TYPES)}"
+        return f"unknown sensor type `{kind}`; {left_out}" + errors.did_you_mean(kind, SENSOR_TYPES)
     return f"sensors of type `{kind}` are not simulated yet; {left_out}"
 
 

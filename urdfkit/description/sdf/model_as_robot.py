@@ -184,7 +184,7 @@ class _Builder:
             found = joints.get(leader)
             if found is None or found.type == "fixed" or not found.axes:
                 hint = did_you_mean(leader, [name for name, each in joints.items() if each.type != "fixed"])
-                raise self._cannot(joint, f"follows `{leader}`, which is not a moving joint of the same tree{hint}")
+                raise self._cannot(joint, f"follows `{leader}`, which is not a moving joint of the same tree" + hint)
             if found.axes[0].mimic is None:
                 break
             met.append(leader)

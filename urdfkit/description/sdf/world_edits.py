@@ -78,4 +78,4 @@ def _model(link: str) -> str:
 
 
 def _unknown(world: World, name: str, names: list[str]) -> ResourceError:
-    return ResourceError(f"no model `{name}` in world `{world.name}`{did_you_mean(name, names)}")
+    return ResourceError(f"no model `{name}` in world `{world.name}`" + did_you_mean(name, names))

@@ -162,7 +162,7 @@ def _geometry(reader: Reader, parent: Element) -> Geometry | None:
     if shape is None:
         if element.children:
             tag = element.children[0].tag
-            message = f"unknown shape <{tag}> in <geometry>{did_you_mean(tag, SHAPES)}"
+            message = f"unknown shape <{tag}> in <geometry>" + did_you_mean(tag, SHAPES)
             reader.note("unknown-value", message, element.children[0])
         else:
             reader.note("missing", f"<geometry> is empty; it holds one of {', '.join(SHAPES)}", element)
@@ -213,7 +213,7 @@ def _joint(reader: Reader, element: Element) -> Joint:
         reader.note("missing", f"missing attribute `type`; joint types are {', '.join(JOINT_TYPES)}", element, "type")
     elif kind not in JOINT_TYPES:
         hint = did_you_mean(kind, JOINT_TYPES) or f"; joint types are {', '.join(JOINT_TYPES)}"
-        reader.note("unknown-value", f"unknown type `{kind}`{hint}", element, "type")
+        reader.note("unknown-value", f"unknown type `{kind}`" + hint, element, "type")
     parent, child = (_linked(reader, element, end) for end in ("parent", "child"))
     axis = element.find("axis")
     direction = reader.vector(axis, "xyz") if axis is not None else None

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from urdfkit.errors import kind_of, one_line
+from urdfkit.defect_message import DefectMessage, pattern_of
+from urdfkit.errors import one_line
 from urdfkit.position import Position
 from urdfkit.record import record
 
@@ -80,13 +81,13 @@ def grouped(repairs: Iterable[Repair]) -> list[Repair]:
     """
     groups: dict[tuple[str | None, str, str], list[Repair]] = {}
     for repair in dict.fromkeys(repairs):
-        groups.setdefault((repair.code, repair.severity, kind_of(repair.message)), []).append(repair)
+        pattern = pattern_of(DefectMessage.of(repair.message).stem)
+        groups.setdefault((repair.code, repair.severity, pattern), []).append(repair)
     found: list[Repair] = []
     for group in groups.values():
         if len(group) < (SMALLEST_GROUP if group[0].severity == "warning" else 2):
             found += group
             continue
-        before, separator, suggestion = group[0].message.partition("; did you mean ")
         more = f" (and {len(group) - 1} more of this kind; {ALL_PLACES})"
-        found.append(replace(group[0], message=f"{before}{more}{separator}{suggestion}"))
+        found.append(replace(group[0], message=DefectMessage.of(group[0].message).inserted(more)))
     return found

@@ -76,5 +76,5 @@ def unused_arguments(arguments: Mapping[str, str], sources: Iterable[Source], ma
     for name in arguments:
         if name not in declared and not is_used(name, sources):
             available = f" (declared: {', '.join(declared)})" if declared else "; the robot declares none"
-            lines.append(shortened(f"no file uses the argument `{name}`{did_you_mean(name, declared) or available}"))
+            lines.append(shortened(f"no file uses the argument `{name}`" + (did_you_mean(name, declared) or available)))
     return lines

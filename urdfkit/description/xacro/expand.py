@@ -142,4 +142,4 @@ def _check_exists(path: str | Path) -> None:
     if path.is_dir():
         raise ResourceError(f"{path} is a folder, not a description")
     if not path.exists():
-        raise ResourceError(f"no such file: {path}{near_path(path)}")
+        raise ResourceError(f"no such file: {path}" + near_path(path))

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xacro.expanded import Expanded
@@ -14,7 +15,7 @@ from urdfkit.description.xacro.faults import MacroDefinition
 from urdfkit.description.xml.extended_text import ExtendedText
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import UsageError, did_you_mean, nearest, suggestion
+from urdfkit.errors import UsageError, did_you_mean, nearest
 
 _ORIGIN = '<origin xyz="0 0 0" rpy="0 0 0"/>'
 _LISTED = 8
@@ -47,7 +48,7 @@ def text_with_call(path: Path, macro: str, arguments: Mapping[str, str], package
         words = " ".join(f"{name}:=VALUE" for name in missing)
         unknown = {name: nearest(name, missing) for name in arguments if name not in definition.parameters}
         typo = next((name for name, near in unknown.items() if near is not None), None)
-        hint = "" if typo is None else f"; it has no parameter `{typo}`{suggestion(unknown[typo])}"
+        hint = "" if typo is None else f"; it has no parameter `{typo}`{Suggestion(unknown[typo])}"
         raise UsageError(f"macro `{macro}` requires {', '.join(f'`{name}`' for name in missing)}: pass {words}{hint}")
     values = "".join(f" {name}={quoteattr(arguments[name])}" for name in names if name in arguments)
     blocks = "".join(_block(name) for name in definition.parameters if name.startswith("*"))

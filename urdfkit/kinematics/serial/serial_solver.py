@@ -66,7 +66,7 @@ class SolverOptions:
         if self.restarts < 0:
             raise KinematicsError(f"the number of restarts is {self.restarts}; it must not be negative")
         if self.prefer not in PREFERENCES:
-            raise KinematicsError(f"unknown preference `{self.prefer}`{did_you_mean(self.prefer, PREFERENCES)}")
+            raise KinematicsError(f"unknown preference `{self.prefer}`" + did_you_mean(self.prefer, PREFERENCES))
 
     def numbers(self, rows: int = 1) -> array[float]:
         """Return the options of the kernel: see `serial.kernel.search.search`."""

@@ -15,6 +15,7 @@ import time
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import content_of
 from urdfkit.lint.finding import Edit, EntryResult, Finding, Fix
 
@@ -283,6 +284,7 @@ def _row(finding: Finding) -> list[Any]:
         chains,
         finding.cause,
         finding.variant,
+        finding.suggestion and [finding.suggestion.meant, finding.suggestion.written],
     ]
 
 
@@ -294,7 +296,7 @@ def _finding(row: list[Any]) -> Finding:
     from urdfkit.description.xml.source import Expansion, Position, Span
 
     code, name, severity, message = row[:4]
-    link, joint, help, fix, chains, cause, variant = row[9:]
+    link, joint, help, fix, chains, cause, variant, suggestion = row[9:]
     return Finding(
         code,
         name,
@@ -308,4 +310,5 @@ def _finding(row: list[Any]) -> Finding:
         tuple(tuple(Expansion(call[0], Position(*call[1:])) for call in chain) for chain in chains),
         cause,
         variant=variant,
+        suggestion=suggestion and Suggestion(*suggestion),
     )

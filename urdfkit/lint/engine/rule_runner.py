@@ -127,7 +127,7 @@ class RuleRunner:
 
 def _with_fix(rule: type[Rule], found: Finding, model: Model) -> Finding:
     """Return a finding in a launch, YAML, SRDF or package file with the fix that writes the nearest name."""
-    if rule.fix == "none" or found.fix is not None or not found.meant or found.file in model.expanded.sources:
+    if rule.fix == "none" or found.fix is not None or found.suggestion is None or found.file in model.expanded.sources:
         return found
     from urdfkit.lint.fix_builders import nearest_name
 

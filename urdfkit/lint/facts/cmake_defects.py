@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
 from urdfkit.lint.finding import Severity
@@ -82,7 +83,7 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
         misspelt = misspelt_word(command)
         if misspelt is not None:
             word, start, near = misspelt
-            yield BuildDefect(source, start, word, f"unknown word `{word}` of install(); did you mean `{near}`?")
+            yield BuildDefect(source, start, word, f"unknown word `{word}` of install()" + Suggestion(near, word))
             continue
         if command.name not in ("install", "catkin_install_python") or words[:1] not in (
             ["DIRECTORY"],
@@ -113,7 +114,7 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
             continue
         near = nearest(name, _VARIABLES, cutoff=0.85)
         if near is not None and is_typo(name, near):
-            message = f"unknown variable `{name}`; did you mean `{near}`?"
+            message = f"unknown variable `{name}`" + Suggestion(near, name)
             yield BuildDefect(source, use.start(1), name, message)
             continue
         if is_whole and is_destination and re.fullmatch(r"PROJECT(_\w+)?|CATKIN_(PACKAGE|GLOBAL)_\w+", name):
@@ -141,7 +142,7 @@ def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
             message = f"{command.name}() needs find_package({tools[0]} REQUIRED)"
             yield BuildDefect(source, command.start, command.name, message, kind="find_package")
         elif near is not None and misspelling_of(near, ()) is None:  # the rule reports other misspelt packages
-            message = f"unknown package `{near}`; did you mean `{tools[0]}`?"
+            message = f"unknown package `{near}`" + Suggestion(tools[0], near)
             yield BuildDefect(source, dict(found)[near], near, message)
 
 

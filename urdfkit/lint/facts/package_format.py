@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.build_files import BuildFiles
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.model.tags import Tag
@@ -87,8 +88,8 @@ def _elements(root: Tag) -> Iterator[FormatDefect]:
             yield FormatDefect(tag, f"<{tag.name}> does not exist in format {form}")
             continue
         near = nearest(tag.name, ELEMENTS[form], cutoff=0.8)
-        advice = f"; did you mean <{near}>?" if near else ""
-        yield FormatDefect(tag, f"unknown element <{tag.name}> of package.xml{advice}")
+        advice = Suggestion(near and f"<{near}>", f"<{tag.name}>")
+        yield FormatDefect(tag, f"unknown element <{tag.name}> of package.xml" + advice)
 
 
 def _values(files: BuildFiles, root: Tag) -> Iterator[FormatDefect]:

@@ -7,6 +7,7 @@ import fnmatch
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.build_files import BuildFiles
@@ -101,10 +102,10 @@ def _data_files(
         hint = near_path(files.folder / folder) if folder and "*" not in folder and not files.has(folder) else ""
         if is_pattern and hint:
             misspelt.add(folder)
-            message = f"folder `{folder}` does not exist in this package{hint}"
+            message = f"folder `{folder}` does not exist in this package" + hint
             yield BuildDefect(source, start, source.text[start:end], message, kind="missing")
         elif not is_pattern and not files.has(text):
-            message = f"`{text}` does not exist in this package{hint}"
+            message = f"`{text}` does not exist in this package" + hint
             yield BuildDefect(source, start, source.text[start:end], message, kind="missing")
     left_out: dict[int, list[tuple[str, str]]] = {}
     ends: dict[int, int] = {}
@@ -146,7 +147,7 @@ def _groups(source: Source, reader: LaunchReader, points: ast.expr | None) -> It
         name = reader.text(key) or ""
         near = nearest(name, ["console_scripts", "gui_scripts"], cutoff=0.85)
         if near is not None and near != name:
-            message = f"unknown group `{name}` of entry points; did you mean `{near}`?"
+            message = f"unknown group `{name}` of entry points" + Suggestion(near, name)
             yield BuildDefect(source, place(source, key)[0] + 1, name, message)
 
 
@@ -196,7 +197,7 @@ def _entry_point(files: BuildFiles, source: Source, text: str, start: int) -> It
     if not (files.has(top) or files.has(f"{top}.py")):
         near, hint = meant(top, [files.name])
         if near is not None and files.has(near):  # others are modules of other packages
-            message = f"module `{top}` does not exist in this package{hint}"
+            message = f"module `{top}` does not exist in this package" + hint
             yield BuildDefect(source, at, top, message, kind="missing")
         return
     path = parts[2].replace(".", "/")
@@ -205,12 +206,12 @@ def _entry_point(files: BuildFiles, source: Source, text: str, start: int) -> It
         folder = files.folder / path.rpartition("/")[0]
         hint = meant(parts[2].rpartition(".")[2], sorted(file.stem for file in folder.glob("*.py")))[1] if inner else ""
         yield BuildDefect(
-            source, at, parts[2], f"module `{parts[2]}` does not exist in this package{hint}", kind="missing"
+            source, at, parts[2], f"module `{parts[2]}` does not exist in this package" + hint, kind="missing"
         )
         return
     defined = _defined(files, module)
     if defined is not None and parts[3].partition(".")[0] not in defined:
-        message = f"`{module}` does not define `{parts[3]}`{meant(parts[3], defined)[1]}"
+        message = f"`{module}` does not define `{parts[3]}`" + meant(parts[3], defined)[1]
         yield BuildDefect(source, start + parts.start(3), parts[3], message)
 
 

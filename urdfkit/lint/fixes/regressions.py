@@ -21,7 +21,6 @@ from urdfkit.lint.finding import Finding
 _ALWAYS = frozenset(("E001", "E013"))
 """The file is not well-formed; a unique element occurs twice."""
 
-_NAMED = re.compile(r"`([^`]*)`")
 _WORD = re.compile(r"[\w./:-]+")
 
 
@@ -57,7 +56,7 @@ class WrittenText:
         """Return whether the edits cause a new finding."""
         if finding.severity == "note":
             return False
-        if finding.code in _ALWAYS or not self.names.isdisjoint(_NAMED.findall(finding.message)):
+        if finding.code in _ALWAYS or any(f"`{name}`" in finding.message for name in self.names):
             return True
         span = finding.span
         start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)

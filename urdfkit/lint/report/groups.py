@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from urdfkit.errors import kind_of
+from urdfkit.defect_message import pattern_of
 from urdfkit.lint.finding import SEVERITIES, Finding
 
 SMALLEST = 4
@@ -72,7 +72,7 @@ def _kind(finding: Finding) -> str:
     """Return the common part of the messages of one kind; misspelt names are separate mistakes."""
     if finding.severity == "error" and finding.meant:
         return finding.message
-    return kind_of(finding.message)
+    return pattern_of(finding.message.removesuffix(finding.suggestion or ""))
 
 
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:

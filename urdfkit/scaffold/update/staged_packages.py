@@ -1,7 +1,6 @@
 """Checks of an update: the updated packages are assembled in a temporary folder and compared with the current ones."""
 
 import os
-import re
 import shutil
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
@@ -10,7 +9,6 @@ from pathlib import Path
 
 from urdfkit.scaffold.update.file_references import needed
 
-_LINE = re.compile(r":\d+\)$")
 _MODELS = (".urdf", ".xacro")
 
 
@@ -19,16 +17,20 @@ class PackageFault:
     """A fault of a result.
 
     Attributes:
-        message: problem and place, in one line.
+        message: the problem, in one line.
         is_error: whether it is an error; otherwise it is a warning.
+        file: name of the file; empty if the fault has no place.
+        line: line in the file.
     """
 
     message: str
     is_error: bool = True
+    file: str = ""
+    line: int = 0
 
     def __str__(self) -> str:
-        """Return the message."""
-        return self.message
+        """Return the message with its place."""
+        return f"{self.message} ({self.file}:{self.line})" if self.file else self.message
 
 
 Checker = Callable[[Path], Sequence[PackageFault]]
@@ -75,19 +77,15 @@ def worsened(
     unused = [path for path in parts if path not in used]
     for path in unused:
         (after / path).unlink()
-    counts = Counter(_without_line(fault) for fault in check(before))
+    counts = Counter((fault.message, fault.file) for fault in check(before))
     new = []
     for fault in check(after):
-        counts[_without_line(fault)] -= 1
-        if counts[_without_line(fault)] < 0:
+        counts[fault.message, fault.file] -= 1
+        if counts[fault.message, fault.file] < 0:
             new.append(fault)
     shutil.rmtree(before)
     shutil.rmtree(after)
     return new, unused
-
-
-def _without_line(fault: PackageFault) -> str:
-    return _LINE.sub("", fault.message)
 
 
 def link_or_copy(source: str, target: str) -> None:

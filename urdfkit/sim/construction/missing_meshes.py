@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.sdf import WorldLink, WorldModel, WorldShape
 from urdfkit.description.urdf.repair_record import Repair, Severity
 from urdfkit.description.urdf.robot import Mesh, Robot
-from urdfkit.errors import ResourceError, SimulationError, with_effect
+from urdfkit.errors import ResourceError, SimulationError
 from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.construction.repairs.collector import Repairs
 

@@ -47,7 +47,7 @@ def _frame(robot: Robot, element: Element | None) -> str:
         if element is not None and link:
             if link not in robot.link_by_name:
                 raise SimulationError(
-                    f"<fdir1> is expressed in `{link}`, which is not a link{did_you_mean(link, robot.link_by_name)}",
+                    f"<fdir1> is expressed in `{link}`, which is not a link" + did_you_mean(link, robot.link_by_name),
                     position=element.origin.position,
                 )
             return link

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from urdfkit import entry_points
+from urdfkit.defect_message import with_effect
 from urdfkit.description.hardware_defects import hardware_plugin, mock_blocks, not_run
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.gazebo_libraries import meant_library
@@ -17,7 +18,7 @@ from urdfkit.description.plugins.unknown_plugins import unknown, unsupported
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.repair_record import Repair, RepairKind
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
-from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, nearest, with_effect
+from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, nearest
 from urdfkit.position import Position
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states

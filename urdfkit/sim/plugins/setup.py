@@ -85,5 +85,5 @@ class Setup:
                 code=code,
             )
         raise SimulationError(
-            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, names)}", position=position, code=code
+            f"no joint `{name}` in robot `{robot.name}`" + did_you_mean(name, names), position=position, code=code
         )

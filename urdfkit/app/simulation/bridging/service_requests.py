@@ -8,8 +8,8 @@ from typing import Any, Protocol
 from urdfkit.app.simulation.features.feature import Done, Takes
 from urdfkit.bridges.json_messages import from_json, json_values
 from urdfkit.bridges.service import Service, respond
-from urdfkit.bus import absolute, nearest_topic
-from urdfkit.errors import SimulationError, UsageError, suggestion
+from urdfkit.bus import absolute, similar_topic
+from urdfkit.errors import SimulationError, UsageError
 from urdfkit.view.protocol.page_requests import Request, Schema, text, tree
 
 
@@ -70,7 +70,7 @@ def service_requests(source: Callables) -> Takes:
     def named(request: Request) -> tuple[str, str]:
         name = absolute(request.values["service"])
         if not (type := source.service_type(name)):
-            raise UsageError(f"unknown service `{name}`{suggestion(nearest_topic(name, source.services()))}")
+            raise UsageError(f"unknown service `{name}`{similar_topic(name, source.services())}")
         return name, type
 
     def type_of(request: Request) -> Done:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
-from urdfkit.errors import SimulationError, UsageError, suggestion
+from urdfkit.errors import SimulationError, UsageError
 
 if TYPE_CHECKING:
     from urdfkit.sim.simulator import Simulator
@@ -77,7 +77,7 @@ def publish_at(simulator: Simulator, wanted: TopicMessage) -> None:
     """
     import yaml
 
-    from urdfkit.bus import absolute, nearest_topic
+    from urdfkit.bus import absolute, similar_topic
     from urdfkit.messages import from_fields, full_type_name
 
     try:
@@ -93,6 +93,7 @@ def publish_at(simulator: Simulator, wanted: TopicMessage) -> None:
     if absolute(wanted.topic) not in subscribed:
         own = sorted(topic for topic in subscribed if not topic.startswith(("/gazebo/", "/world/")))
         others = f" (topics with subscribers: {', '.join(own)})" if own else ""
-        near = nearest_topic(absolute(wanted.topic), subscribed)
-        simulator.note(f"{absolute(wanted.topic)} has no subscribers{suggestion(near) or others}")
+        simulator.note(
+            f"{absolute(wanted.topic)} has no subscribers{similar_topic(absolute(wanted.topic), subscribed) or others}"
+        )
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))

@@ -36,7 +36,7 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
     note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or ""
     if kind not in TYPES:
-        raise wrong(element, f"unknown type `{kind}` of joint `{name}`{did_you_mean(kind, TYPES)}")
+        raise wrong(element, f"unknown type `{kind}` of joint `{name}`" + did_you_mean(kind, TYPES))
     parent, child = (_link(element, tag, scope) for tag in ("parent", "child"))
     if child == "world":
         raise wrong(element, f"the child of joint `{name}` is the world; make the world the parent")

@@ -118,7 +118,7 @@ def read_light(context: Context, element: Element, pose: Pose) -> Light:
     note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or "point"
     if kind not in _LIGHTS:
-        raise wrong(element, f"unknown type `{kind}` of light `{name}`{did_you_mean(kind, _LIGHTS)}")
+        raise wrong(element, f"unknown type `{kind}` of light `{name}`" + did_you_mean(kind, _LIGHTS))
     default = Light(name)
     fading, spot = element.find("attenuation"), element.find("spot")
     far, constant, linear, quadratic = default.attenuation

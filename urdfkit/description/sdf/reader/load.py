@@ -62,7 +62,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
     if path.suffix in _SUFFIXES and not exists(path):
         hint = f"; did you mean the bundled world `{path.stem}`?" if path.stem in names else near_path(path)
         hint = hint or did_you_mean(path.stem, names) or f" (bundled worlds: {', '.join(names)})"
-        raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory{hint}")
+        raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory" + hint)
     if path.suffix not in _SUFFIXES:
         raise ResourceError(
             f"no world `{world}`{did_you_mean(str(world), names)}"

@@ -85,7 +85,7 @@ class Context:
             raise wrong(root, f'<sdf> lacks its version: write <sdf version="1.{min(NEWEST[1], 9)}">')
         found = _VERSION.match(written.strip())
         if found is None:
-            raise wrong(root, f"version `{written}` is not a version of SDF{did_you_mean(written, ['1.6', '1.9'])}")
+            raise wrong(root, f"version `{written}` is not a version of SDF" + did_you_mean(written, ["1.6", "1.9"]))
         version = int(found[1]), int(found[2])
         if version < OLDEST or version[0] > NEWEST[0]:
             oldest, newest = (".".join(map(str, each)) for each in (OLDEST, NEWEST))

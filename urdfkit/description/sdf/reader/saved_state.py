@@ -38,7 +38,7 @@ class SavedState:
         for model in self._element.find_all("model"):
             if name_of(model) not in models:
                 hint = did_you_mean(name_of(model), models)
-                self._context.note(model, f"<state> places the unknown model `{model.get('name')}`{hint}")
+                self._context.note(model, f"<state> places the unknown model `{model.get('name')}`" + hint)
 
     def model(self, model: WorldModel) -> WorldModel:
         """Return a model of the world at its saved pose.

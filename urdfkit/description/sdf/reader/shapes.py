@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from math import sqrt
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.plugins.gazebo_materials import unknown_material
 from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
@@ -91,7 +92,7 @@ def _geometry(context: Context, shape: Element) -> tuple[WorldGeometry, str] | N
             return solid, ""
     if element.find("empty") is None and element.children:
         child = element.children[0]
-        raise wrong(child, f"unknown geometry <{child.tag}>{did_you_mean(child.tag, [*_SOLIDS, 'mesh'])}")
+        raise wrong(child, f"unknown geometry <{child.tag}>" + did_you_mean(child.tag, [*_SOLIDS, "mesh"]))
     return None
 
 
@@ -225,9 +226,9 @@ def _material(context: Context, visual: Element) -> tuple[Rgba | None, str, tupl
     script = element.find("script")
     if (strange := unknown_material(element)) is not None:
         place, name, meant = strange
-        hint = "" if meant is None else f"; did you mean `{meant}`?"
+        hint = Suggestion(meant)
         then = "; the visual keeps its plain colour" if rgba is None else ""
-        context.note(place, f"no material `{name}`{then}{hint}")
+        context.note(place, f"no material `{name}`{then}" + hint)
     plain = ambient in (None, rgba) and all(
         child.tag in ("ambient", "diffuse") or (child.tag == "script" and _is_gazebos(child))
         for child in element.children

@@ -69,8 +69,8 @@ def find_model(context: Context, uri: Element) -> Path:
     if name:
         hint = did_you_mean(name, model_names())
         where = "on GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, near this file or among the bundled models"
-        raise ResourceError(f"no model `{name}` {where}{hint}", position=uri.origin.position)
-    raise ResourceError(f"no model {text}{near_path(context.path.parent / text)}", position=uri.origin.position)
+        raise ResourceError(f"no model `{name}` {where}" + hint, position=uri.origin.position)
+    raise ResourceError(f"no model {text}" + near_path(context.path.parent / text), position=uri.origin.position)
 
 
 def _users(context: Context, text: str, name: str, inside: str) -> Path | None:
@@ -112,7 +112,7 @@ def _entry(path: Path, uri: Element) -> Path:
             if is_file(found):
                 return found
             raise ResourceError(
-                f"no file {shown_path(found)}{near_path(found)}", position=uri.origin.position, kind="file"
+                f"no file {shown_path(found)}" + near_path(found), position=uri.origin.position, kind="file"
             )
     if is_file(plain):
         return plain
@@ -131,4 +131,4 @@ def _refuse_remote(uri: Element) -> None:
         words = [word for word in uri.text.strip().lower().split("/") if word and not word.isdigit()]
         near = replacement_of(words[-1])
         hint = f"; use the bundled model://{near[0]}" if near else "; download it and name its folder: model://…"
-        raise ResourceError(f"{uri.text}: nothing is downloaded{hint}", position=uri.origin.position)
+        raise ResourceError(f"{uri.text}: nothing is downloaded" + hint, position=uri.origin.position)

@@ -1,8 +1,9 @@
 """Elements that SDF allows in each element, so that a misspelt one is reported."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import did_you_mean
+from urdfkit.errors import nearest
 
 _INCLUDE = "allow_auto_disable enable_wind name placement_frame plugin pose static uri merge"
 _LIGHT = "attenuation cast_shadows diffuse direction frame intensity light_on plugin pose specular spot visualize"
@@ -35,5 +36,6 @@ def note_unknown_elements(context: Context, element: Element) -> None:
     allowed = _SETS["axis" if element.tag == "axis2" else element.tag]
     for child in element.children:
         if child.tag not in allowed and ":" not in child.tag:
-            hint = did_you_mean(child.tag, allowed).replace("`", "<", 1).replace("`", ">", 1)
-            context.note(child, f"unknown element <{child.tag}> in <{element.tag}> is ignored{hint}")
+            near = nearest(child.tag, allowed)
+            hint = Suggestion(near and f"<{near}>", f"<{child.tag}>")
+            context.note(child, f"unknown element <{child.tag}> in <{element.tag}> is ignored" + hint)

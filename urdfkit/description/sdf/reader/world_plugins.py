@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.plugins.lookup import match, stem
 from urdfkit.description.plugins.unknown_plugins import nearest
 from urdfkit.description.sdf.model import WorldModel
@@ -56,9 +57,9 @@ def note_unknown_plugins(context: Context, world: World) -> tuple[Position, ...]
             continue
         found.append(plugin.element.origin.position)
         near = nearest(name, NEEDLESS)
-        hint = f"; did you mean `{near}`?" if near else ""
+        hint = Suggestion(near)
         context.note(
-            plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is ignored{hint}"
+            plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is ignored" + hint
         )
     return tuple(found)
 

@@ -126,7 +126,7 @@ class Commands:
             candidates = tuple(self.arguments)
             hint = did_you_mean(name, candidates) or f"; pass {name}:=value, or declare a default with <xacro:arg>"
             raise Failure(
-                "undefined-arg", f"argument `{name}` has no value{hint}", name=name, candidates=candidates
+                "undefined-arg", f"argument `{name}` has no value" + hint, name=name, candidates=candidates
             ) from None
 
     def _evaluate(self, expression: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from types import MappingProxyType
 
+from urdfkit.defect_message import DefectMessage, Suggestion
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Expansion, Position, Source
@@ -83,20 +84,20 @@ def undefined_property(name: str, candidates: Iterable[str]) -> Failure:
     names = tuple(candidates)
     constants = ("pi", "tau", "radians", "degrees", "sin", "cos", "tan", "sqrt")
     meant = _ELSEWHERE.get(name)
-    hint = f"; did you mean `{meant}`?" if meant else did_you_mean(name, (*names, *constants))
-    return Failure("undefined-property", f"property `{name}` is not defined{hint}", name=name, candidates=names)
+    hint = Suggestion(meant, name) if meant else did_you_mean(name, (*names, *constants))
+    return Failure("undefined-property", f"property `{name}` is not defined" + hint, name=name, candidates=names)
 
 
 def undefined_default(name: str, macro: str, candidates: Iterable[str]) -> Failure:
     """Return the failure for a call without a parameter whose default is the property of the same name (``:=^``)."""
     failure = undefined_property(name, candidates)
-    failure.message = f"macro `{macro}` needs `{name}` or a property of that name: {failure.message}"
+    failure.message = f"macro `{macro}` needs `{name}` or a property of that name: " + failure.message
     return failure
 
 
 def undefined_in_command(name: str, arguments: tuple[str, ...]) -> Failure:
     """Return the failure for a name in ``$(eval …)`` that is not defined."""
-    message = f"`{name}` in $(eval …) is neither an argument nor a function{did_you_mean(name, arguments)}"
+    message = f"`{name}` in $(eval …) is neither an argument nor a function" + did_you_mean(name, arguments)
     return Failure("undefined-arg", message, name=name, candidates=arguments)
 
 
@@ -104,24 +105,24 @@ def undefined_macro(name: str, candidates: Iterable[str]) -> Failure:
     """Return the failure for a macro that is not defined."""
     names = tuple(candidates)
     hint = did_you_mean(name, (*names, *DIRECTIVES))
-    return Failure("undefined-macro", f"macro `{name}` is not defined{hint}", name=name, candidates=names)
+    return Failure("undefined-macro", f"macro `{name}` is not defined" + hint, name=name, candidates=names)
 
 
 def macro_arguments(macro: str, missing: tuple[str, ...], unknown: tuple[str, ...], names: list[str]) -> Failure:
     """Return the failure for a call that does not fit its macro."""
     if unknown:
-        wrong = f"has no parameter {_listed(unknown)}{did_you_mean(unknown[0], names)}"
+        wrong = f"has no parameter {_listed(unknown)}" + did_you_mean(unknown[0], names)
     else:
         wrong = f"needs {_listed(missing)}"
     details = {"macro": macro, "missing": missing, "unknown": unknown}
-    message = f"macro `{macro}` {wrong}"
+    message = f"macro `{macro}` " + wrong
     return Failure("macro-arguments", message, name=macro, candidates=tuple(names), details=details)
 
 
 def undefined_block(name: str, candidates: Iterable[str]) -> Failure:
     """Return the failure for a block that is not defined."""
     names = tuple(candidates)
-    message = f"block `{name}` is not defined{did_you_mean(name, names)}"
+    message = f"block `{name}` is not defined" + did_you_mean(name, names)
     return Failure("undefined-block", message, name=name, candidates=names)
 
 
@@ -180,7 +181,7 @@ def error_of(failure: Failure, sources: Iterable[Source]) -> XacroError:
             at = fault.position
             follows = at is not None and at.file == later.file and (at.line, at.column) < (later.line, later.column)
             where = f"yet: its definition follows at {later}" if follows else f"here: it is defined at {later}"
-            message = f"{message.split('; did you mean')[0]} {where}"
+            message = f"{DefectMessage.of(message).stem} {where}"
     chain = "" if fault.kind == "recursion" else chain_words(fault.expansions)
     return XacroError(message + chain, position=fault.position)
 

@@ -234,13 +234,13 @@ def unreadable(error: OSError, *, is_include: bool, user: Path | None = None) ->
             elif path.is_symlink() and not path.exists():
                 why = f"is a symbolic link to {path.readlink()}, which does not exist or leads back to the link"
             else:
-                why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path, user=user)}"
+                why = ("cannot be read" if path.is_file() else "does not exist") + near_path(path, user=user)
         except PermissionError:  # of a folder above it
             why = "cannot be read"
     kind = "include-not-found" if is_include else "other"
     shown = shown_path(path)
     named = short(shown) if "\n" in shown else shown
-    message = f"{'included ' if is_include else ''}file {named} {why}"
+    message = f"{'included ' if is_include else ''}file {named} " + why
     return Failure(kind, message, name=shown, details={"path": str(path)})
 
 

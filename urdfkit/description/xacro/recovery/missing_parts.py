@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import with_effect
 
 _CODES = {
     "include-not-found": "X113",

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import lru_cache
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xacro.recovery.missing_prefix import FOREIGN, is_directive, names_above, rename, tags_below
@@ -43,7 +44,7 @@ def repair_spelling(document: Tag) -> Iterator[Fault]:
     """
     for element, tag, meant in misspelt(document):
         what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is not an xacro element"
-        message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
+        message = what + Suggestion(f"{'' if tag.startswith('xacro:') else 'xacro:'}{meant}")
         yield Fault("misspelt-directive", message, element.position, name=meant)
         rename(element, meant)
     for element in list(tags_below(document)):
@@ -54,8 +55,8 @@ def repair_spelling(document: Tag) -> Iterator[Fault]:
 
 def _repair_attributes(element: Tag, directive: str) -> Iterator[Fault]:
     for name, right in misspelt_attributes(element, directive):
-        hint = f"; did you mean `{right}`?" if right is not None else ""
-        message = f"<{element.tag}> has no attribute `{name}`{hint}"
+        hint = Suggestion(right)
+        message = f"<{element.tag}> has no attribute `{name}`" + hint
         yield Fault("directive-attribute", message, element.position, attribute=name, name=right)
         if right is not None:
             element.attributes[right] = element.attributes[name]

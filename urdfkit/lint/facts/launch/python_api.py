@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from urdfkit.defect_message import Suggestion
+
 _MODULES = """
 launch: Action Condition Event EventHandler InvalidLaunchFileError LaunchContext LaunchDescription
 LaunchDescriptionEntity LaunchDescriptionSource LaunchIntrospector LaunchService SomeActionsType SomeEntitiesType
@@ -141,7 +143,7 @@ def wrong_import(module: str, name: str) -> str | None:
     if names is not None:
         near = first_slip(name, names)
         if near is not None:
-            return f"module `{module}` has no `{name}`; did you mean `{near}`?"
+            return f"module `{module}` has no `{name}`" + Suggestion(near, name)
         is_closed = module not in _SINGLE_FILES
     else:
         root, _, rest = module.partition(".")
@@ -151,7 +153,7 @@ def wrong_import(module: str, name: str) -> str | None:
     if module in _SINGULAR:
         homes = [other for other in homes if other == f"{module}s"]
     homes.sort(key=lambda other: other.partition(".")[2] != module.partition(".")[2])
-    return f"module `{module}` has no `{name}`; did you mean `{homes[0]}`?" if is_closed and homes else None
+    return f"module `{module}` has no `{name}`" + Suggestion(homes[0], name) if is_closed and homes else None
 
 
 def wrong_keyword(kind: str, word: str) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import did_you_mean
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
@@ -41,7 +42,7 @@ def yaml_launch_defects(source: Source) -> Defects:
         for key, value in root.entries:
             near = first_slip(key.text, ("launch",)) if launch is None and value.kind == "list" else None
             if near is not None:
-                yield key, f"unknown key `{key.text}`; did you mean `{near}`?"
+                yield key, f"unknown key `{key.text}`" + Suggestion(near, key.text)
         for item in launch.items if launch is not None else ():
             yield from _actions(item)
 
@@ -55,7 +56,7 @@ def _actions(item: Node) -> Defects:
         near = first_slip(name, ACTIONS[2])
         other = OTHER_ELEMENTS[2].get(name)
         if near is not None:
-            yield key, f"unknown action `{key.text}`; did you mean `{near}`?"
+            yield key, f"unknown action `{key.text}`" + Suggestion(near, key.text)
         elif other is not None:
             yield key, f"`{key.text}` is not an action in ROS 2" + (f"; use `{other}`" if other else "")
 
@@ -82,9 +83,9 @@ def _action(key: Node, name: str, value: Node) -> Defects:
             near = _meant(each.text, valid - written)
             if near is not None:
                 found.add(near)
-                yield each, f"unknown key `{each.text}` of `{key.text}`; did you mean `{near}`?"
+                yield each, f"unknown key `{each.text}` of `{key.text}`" + Suggestion(near, each.text)
         elif each.text == "output" and inner.kind == "text" and not is_output(inner.text, 2):
-            yield inner, f"unknown output `{inner.text}`{did_you_mean(inner.text, OUTPUTS[2])}"
+            yield inner, f"unknown output `{inner.text}`" + did_you_mean(inner.text, OUTPUTS[2])
     for names in element.required:
         if found.isdisjoint(names.split("|")):
             required = " or ".join(f"`{each}`" for each in names.split("|"))

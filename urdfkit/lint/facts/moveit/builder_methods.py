@@ -70,7 +70,7 @@ def wrong_methods(
         if method not in _METHODS:
             if hint := did_you_mean(method, _METHODS):
                 end = place(source, node.func)[1]
-                yield source.span(end - len(method), end), f"`MoveItConfigsBuilder` has no method `{method}`{hint}"
+                yield source.span(end - len(method), end), f"`MoveItConfigsBuilder` has no method `{method}`" + hint
             continue
         words = {word.arg: word.value for word in node.keywords if word.arg is not None}
         yield from _keywords(source, node, method)
@@ -92,7 +92,7 @@ def _keywords(source: Source, call: ast.Call, method: str) -> Iterator[tuple[Spa
         name = word.arg or ""
         if valid and name not in valid and (hint := did_you_mean(name, valid)):
             start = source.text.rfind(name, 0, place(source, word.value)[0])
-            yield source.span(start, start + len(name)), f"`{method}` has no argument `{name}`{hint}"
+            yield source.span(start, start + len(name)), f"`{method}` has no argument `{name}`" + hint
 
 
 def _builder_of(start: ast.expr, reader: LaunchReader) -> ast.expr | None:
@@ -119,7 +119,7 @@ def _file(
 ) -> Iterator[tuple[Span, str]]:
     path = _relative(node, reader)
     if path and not path.startswith(("/", "~")) and not model.expanded.packages.whereabouts(folder / path):
-        message = f"`{path}` does not exist in package `{folder.name}`{near_path(folder / path)}"
+        message = f"`{path}` does not exist in package `{folder.name}`" + near_path(folder / path)
         yield source.span(*place(source, node)), message
 
 
@@ -158,11 +158,11 @@ def _pipelines(
     for node, name in zip(names.elts, written, strict=True):
         if name and name not in existing:
             message = f"planning pipeline `{name}` has no file `config/{name}_planning.yaml` in package `{folder.name}`"
-            yield source.span(*place(source, node)), f"{message}{did_you_mean(name, existing)}"
+            yield source.span(*place(source, node)), message + did_you_mean(name, existing)
     name = reader.text(default) if default is not None else None
     if default is not None and name and written and None not in written and name not in written:
         hint = did_you_mean(name, [each for each in written if each])
         yield (
             source.span(*place(source, default)),
-            f"the default planning pipeline `{name}` is not in `pipelines`{hint}",
+            f"the default planning pipeline `{name}` is not in `pipelines`" + hint,
         )

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import nearest, suggestion
+from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of
 from urdfkit.lint.facts.moveit.settings import unwrapped
 
@@ -37,7 +38,7 @@ def _defects(section: Node, limits: Node) -> Iterator[tuple[Node, str]]:
             near = nearest(key.text, missing, cutoff=0.8) if key.text not in _OTHERS else None
             if near is not None:
                 missing.remove(near)
-                yield key, f"unknown Cartesian limit `{key.text}`{suggestion(near)}"
+                yield key, f"unknown Cartesian limit `{key.text}`" + Suggestion(near, key.text)
         elif problem := not_a_number(value):
             yield value, f"`{key.text}` is {problem}"
         elif value.kind == "text" and (number := number_of(value)) is not None:

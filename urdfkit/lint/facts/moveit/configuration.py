@@ -102,4 +102,4 @@ def missing_paths(
             is_read = path is not None and path.text and key.lower() not in replaced
             if path is not None and package is not None and is_read and not (package / path.text).exists():
                 where = f"package `{named.text}`" if named is not None else "this package"
-                yield source, path, f"`{path.text}` does not exist in {where}{near_path(package / path.text)}"
+                yield source, path, f"`{path.text}` does not exist in {where}" + near_path(package / path.text)

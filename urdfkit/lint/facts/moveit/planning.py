@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Collection, Iterable, Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
@@ -68,7 +69,7 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                 near = nearest(key.text, _KEYS, cutoff=0.9) if key.text not in _KEYS else None
                 is_other = key.text.rstrip("s") == near.rstrip("s") and not _has_limits(value) if near else True
                 if near is not None and not is_other:
-                    yield key, f"unknown parameter `{key.text}` of MoveIt; did you mean `{near}`?"
+                    yield key, f"unknown parameter `{key.text}` of MoveIt" + Suggestion(near, key.text)
                 if key.text in _SCALING_FACTORS:
                     yield from _scaling_factor(key, value)
                 if key.text == "planner_configs" or value.kind != "group":
@@ -76,7 +77,7 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                 configs = value.find("planner_configs")
                 is_of_group = configs is not None and configs.kind != "group"
                 if is_of_group and groups and key.text not in groups:
-                    yield key, f"group `{key.text}` does not exist in the SRDF{_hint(key.text, groups)}"
+                    yield key, f"group `{key.text}` does not exist in the SRDF" + _hint(key.text, groups)
                 if configs is not None and configs.kind == "text" and configs.text:
                     yield configs, f"`planner_configs` of group `{key.text}` is a string; write a list"
                 if is_of_group:
@@ -132,7 +133,7 @@ def _sensors(top: Node) -> Defects:
     sensors, names = top.find("sensors"), {key.text for key, _ in top.entries}
     for item in sensors.items if sensors is not None else ():
         if item.text and item.text not in names and any(each.find("sensor_plugin") for _, each in top.entries):
-            yield item, f"sensor `{item.text}` has no section{_hint(item.text, names - {'sensors'})}"
+            yield item, f"sensor `{item.text}` has no section" + _hint(item.text, names - {"sensors"})
     listed = sensors.items if sensors is not None else ()
     for node in (*(value for _, value in top.entries), *listed):
         plugin = node.find("sensor_plugin")
@@ -168,7 +169,7 @@ def _plugins(document: Node) -> Defects:
             near = meant_plugin(value.text) if value.kind == "text" else None
             if near is not None:
                 kind = "planner" if near.startswith("geometric::") else "plugin"
-                yield value, f"unknown {kind} `{value.text}`; did you mean `{near}`?"
+                yield value, f"unknown {kind} `{value.text}`" + Suggestion(near, value.text)
 
 
 def meant_plugin(text: str) -> str | None:
@@ -188,7 +189,7 @@ def _planners(group: Node, settings: Node, defined: Node | None) -> Defects:
     lists = (settings.find("planner_configs"), settings.find("default_planner_config"))
     for node in [each for value in lists if value is not None for each in (*value.items, value)]:
         if names and node.text and node.text not in names and "::" not in node.text:
-            yield node, f"`planner_configs` does not define planner `{node.text}`{_hint(node.text, names)}"
+            yield node, f"`planner_configs` does not define planner `{node.text}`" + _hint(node.text, names)
     fraction = settings.find("longest_valid_segment_fraction")
     if fraction is not None and (problem := not_a_number(fraction)):
         yield fraction, f"`longest_valid_segment_fraction` of group `{group.text}` is {problem}"
@@ -337,6 +338,6 @@ def controller_defects(entry: MoveitEntry) -> Defects:
         seen.add(node.text)
     near = nearest(action.text, _ACTIONS, cutoff=0.85) if action is not None else None
     if action is not None and near is not None and action.text not in _ACTIONS:
-        yield action, f"unknown action `{action.text}` of controller `{name}`; did you mean `{near}`?"
+        yield action, f"unknown action `{action.text}` of controller `{name}`" + Suggestion(near, action.text)
     if default is not None and default.kind == "text" and not default.is_plain:
         yield default, f'`default` of controller `{name}` is "{default.text}", a quoted string; write true or false'

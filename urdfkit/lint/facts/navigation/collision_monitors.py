@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import nearest, suggestion
+from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of
 from urdfkit.lint.facts.navigation.sections import sections
@@ -43,7 +44,7 @@ def monitor_defects(source: Source) -> Defects:
                     if item.text and not any(each.text.startswith(f"{item.text}.") for each, _ in group.entries):
                         others = [each.text for each, value in group.entries if value.find("type") is not None]
                         near = nearest(item.text, others, cutoff=0.6)
-                        yield item, f"`{name}` lists `{item.text}`, which has no section{suggestion(near)}"
+                        yield item, f"`{name}` lists `{item.text}`, which has no section" + Suggestion(near, item.text)
                 else:
                     yield from _part(section, item.text, types, name == "polygons")
 
@@ -51,13 +52,13 @@ def monitor_defects(source: Source) -> Defects:
 def _part(section: Node, name: str, types: tuple[str, ...], is_polygon: bool) -> Defects:
     kind, action, points = (section.find(each) for each in ("type", "action_type", "points"))
     if kind is not None and kind.text not in types and kind.text and "$" not in kind.text:
-        hint = suggestion(nearest(kind.text, types)) or f"; write one of {', '.join(types)}"
-        yield kind, f"unknown type `{kind.text}` of `{name}`{hint}"
+        hint = Suggestion(nearest(kind.text, types), kind.text) or f"; write one of {', '.join(types)}"
+        yield kind, f"unknown type `{kind.text}` of `{name}`" + hint
     if not is_polygon:
         return
     if action is not None and action.text not in _ACTIONS and "$" not in action.text:
-        hint = suggestion(nearest(action.text, _ACTIONS)) or f"; write one of {', '.join(_ACTIONS)}"
-        yield action, f"unknown `action_type` `{action.text}` of `{name}`{hint}"
+        hint = Suggestion(nearest(action.text, _ACTIONS), action.text) or f"; write one of {', '.join(_ACTIONS)}"
+        yield action, f"unknown `action_type` `{action.text}` of `{name}`" + hint
     if points is not None and points.kind == "text" and points.text and "$" not in points.text:
         pairs = re.findall(_PAIR, points.text)
         if not re.fullmatch(rf"\[\s*{_PAIR}(?:\s*,\s*{_PAIR})*\s*\]", points.text.strip()):

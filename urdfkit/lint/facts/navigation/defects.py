@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import nearest, suggestion
+from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
 from urdfkit.lint.facts.navigation.sections import costmaps_of_ros1, sections
@@ -88,8 +89,8 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         elif name == "slam_toolbox":
             mode = group.find("mode")
             if mode is not None and mode.text and "$" not in mode.text and mode.text not in SLAM_MODES:
-                hint = suggestion(nearest(mode.text, SLAM_MODES)) or "; write `mapping` or `localization`"
-                yield mode, f"unknown `mode` `{mode.text}` of slam_toolbox{hint}"
+                hint = Suggestion(nearest(mode.text, SLAM_MODES), mode.text) or "; write `mapping` or `localization`"
+                yield mode, f"unknown `mode` `{mode.text}` of slam_toolbox" + hint
             yield from _values(group, SLAM_POSITIVE)
         elif name == "twist_mux":
             yield from _mux(group)
@@ -120,7 +121,7 @@ def _similar(node: Node) -> Defects:
             continue
         near = next((each for each in choices if is_slip(value.text, each)), None)
         if near is not None:
-            yield value, f"unknown `{key.text}` `{value.text}`; did you mean `{near}`?"
+            yield value, f"unknown `{key.text}` `{value.text}`" + Suggestion(near, value.text)
 
 
 def _mux(group: Node) -> Defects:
@@ -135,7 +136,7 @@ def _mux(group: Node) -> Defects:
                 near = next((each for each in MUX if each not in written and is_slip(key.text, each)), None)
                 if key.text not in MUX and near is not None:
                     written.add(near)
-                    yield key, f"unknown parameter `{key.text}` of twist_mux; did you mean `{near}`?"
+                    yield key, f"unknown parameter `{key.text}` of twist_mux" + Suggestion(near, key.text)
                 number = number_of(value)
                 if key.text == "priority" and number is not None and not 0.0 <= number <= 255.0:
                     yield value, f"`priority` is {number:g}; twist_mux requires 0 to 255"
@@ -197,11 +198,14 @@ def _plugins(node: Node) -> Defects:
                 continue
             near = nearest(word, unlisted, cutoff=0.6) or (unlisted[0] if len(others) == len(unlisted) == 1 else None)
             if word in DEFAULTS and near is not None:
-                message = f"section `{near}` is not in `{key.text}`; did you mean `{word}`?"
+                message = f"section `{near}` is not in `{key.text}`" + Suggestion(word, near)
                 yield defined[near][0], message
             elif near is not None or (word not in DEFAULTS and key.text != "observation_sources" and others):
                 what = "topic" if key.text == "observation_sources" else "plugin"
-                yield item, f"`{key.text}` lists `{word}`, which has no section with its `{what}`{suggestion(near)}"
+                yield (
+                    item,
+                    f"`{key.text}` lists `{word}`, which has no section with its `{what}`" + Suggestion(near, word),
+                )
 
 
 def _contradictions(node: Node) -> Defects:
@@ -218,7 +222,7 @@ def _contradictions(node: Node) -> Defects:
     for item in critics.items if critics is not None else ():
         near = next((each for each in sorted(CRITICS) if is_slip(item.text, each)), None)
         if item.text not in CRITICS and near is not None:
-            yield item, f"unknown critic `{item.text}`; did you mean `{near}`?"
+            yield item, f"unknown critic `{item.text}`" + Suggestion(near, item.text)
 
 
 def _keys(node: Node) -> set[str]:
@@ -255,11 +259,11 @@ def _choices(group: Node) -> Defects:
     for key, value in group.entries:
         choices = CHOICES.get(key.text, ())
         if choices and value.kind == "text" and value.text and "$" not in value.text and value.text not in choices:
-            hint = suggestion(nearest(value.text, choices)) or f"; write one of {', '.join(choices)}"
-            yield value, f"unknown `{key.text}` `{value.text}`{hint}"
+            hint = Suggestion(nearest(value.text, choices), value.text) or f"; write one of {', '.join(choices)}"
+            yield value, f"unknown `{key.text}` `{value.text}`" + hint
         near = next((one for one in ("odom", "map") if is_slip(value.text, one)), None)
         if key.text in FRAMES and near is not None and value.text not in ("odom", "map"):
-            yield value, f"unknown frame `{value.text}`; did you mean `{near}`?"
+            yield value, f"unknown frame `{value.text}`" + Suggestion(near, value.text)
     least, most = group.find("min_particles"), group.find("max_particles")
     if least is not None and most is not None:
         low, high = number_of(least), number_of(most)
@@ -279,8 +283,8 @@ def _values(node: Node, positive: frozenset[str] = POSITIVE) -> Defects:
             and "$" not in value.text
         ):
             near = nearest(value.text, ("LaserScan", "PointCloud2"))
-            hint = suggestion(near) or "; write `LaserScan` or `PointCloud2`"
-            yield value, f"unknown `data_type` `{value.text}` of an observation source{hint}"
+            hint = Suggestion(near, value.text) or "; write `LaserScan` or `PointCloud2`"
+            yield value, f"unknown `data_type` `{value.text}` of an observation source" + hint
         if name not in positive or value.kind != "text" or not value.text or "$" in value.text:
             continue
         if problem := not_a_number(value):
@@ -293,8 +297,8 @@ def _velocity_limits(group: Node) -> Defects:
     feedback = group.find("feedback")
     choices = ("OPEN_LOOP", "CLOSED_LOOP")
     if feedback is not None and feedback.text and feedback.text not in choices and "$" not in feedback.text:
-        hint = suggestion(nearest(feedback.text, choices)) or "; write `OPEN_LOOP` or `CLOSED_LOOP`"
-        yield feedback, f"unknown `feedback` `{feedback.text}` of velocity_smoother{hint}"
+        hint = Suggestion(nearest(feedback.text, choices), feedback.text) or "; write `OPEN_LOOP` or `CLOSED_LOOP`"
+        yield feedback, f"unknown `feedback` `{feedback.text}` of velocity_smoother" + hint
     for name, sign in VELOCITY_LIMITS.items():
         value = group.find(name)
         if value is None or value.kind != "list":
@@ -317,8 +321,8 @@ def _filter(group: Node, controllers: frozenset[str]) -> Defects:
     names = [frame.text for frame in frames if frame is not None]
     is_literal = world is not None and world.text and len(names) == 2 and "$" not in "".join((world.text, *names))
     if world is not None and is_literal and world.text not in names:
-        hint = suggestion(nearest(world.text, names)) or f"; write `{names[0]}` or `{names[1]}`"
-        yield world, f"`world_frame` is `{world.text}`, which is neither `map_frame` nor `odom_frame`{hint}"
+        hint = Suggestion(nearest(world.text, names), world.text) or f"; write `{names[0]}` or `{names[1]}`"
+        yield world, f"`world_frame` is `{world.text}`, which is neither `map_frame` nor `odom_frame`" + hint
     frequency = group.find("frequency")
     rate = number_of(frequency) if frequency is not None else None
     if frequency is not None and rate is not None and rate <= 0.0:
@@ -331,21 +335,27 @@ def _filter(group: Node, controllers: frozenset[str]) -> Defects:
             if unnumbered is not None and unnumbered[2] in (None, *_OF_INPUTS):
                 first = next((f"{unnumbered[1]}{i}" for i in range(9) if f"{unnumbered[1]}{i}" in inputs), None)
                 right = key.text.replace(unnumbered[1], first or f"{unnumbered[1]}0", 1)
-                yield key, f"unknown parameter `{key.text}` of robot_localization; did you mean `{right}`?"
+                yield key, f"unknown parameter `{key.text}` of robot_localization" + Suggestion(right, key.text)
             continue
         if at[2] == "config" and value.items and all(each.text == "false" for each in value.items):
             yield value, f"`{key.text}` is false for each value, so the filter does not use `{at[1]}`"
         if at[2] == "config" and at[1] not in inputs:
             others = [each for each in sorted(inputs) if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", each)]
             free = [each for each in others if f"{each}_config" not in inputs]
-            hint = suggestion(f"{free[0]}_config") if len(free) == 1 else ""
-            yield key, f"`{key.text}` has no topic `{at[1]}`{hint}"
+            hint = Suggestion(f"{free[0]}_config", at[1]) if len(free) == 1 else ""
+            yield key, f"`{key.text}` has no topic `{at[1]}`" + hint
         if at[2] is not None and at[2] not in _OF_INPUTS:
             near = next((each for each in _OF_INPUTS if is_slip(at[2], each) or at[2].startswith(f"{each}u")), None)
             if near is not None:
-                yield key, f"unknown parameter `{key.text}` of robot_localization; did you mean `{at[1]}_{near}`?"
+                yield (
+                    key,
+                    f"unknown parameter `{key.text}` of robot_localization" + Suggestion(f"{at[1]}_{near}", key.text),
+                )
         elif at[2] is None and value.kind == "text":
             first, separator, rest = value.text.strip("/").partition("/")
             near = next((each for each in sorted(controllers) if is_slip(first, each)), None)
             if separator and first not in controllers and near is not None:
-                yield value, f"no controller `{first}` publishes `{value.text}`; did you mean `{near}/{rest}`?"
+                yield (
+                    value,
+                    f"no controller `{first}` publishes `{value.text}`" + Suggestion(f"{near}/{rest}", value.text),
+                )

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import nearest, suggestion
+from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of
 
 _KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh")
@@ -30,11 +31,14 @@ def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
         # Without any image in the folder, this is a copy without large files.
         images = [file.name for pattern in _IMAGES for file in sorted(folder.glob(pattern))] if is_relative else []
         if images and not is_file(folder / image.text):
-            yield image, f"image `{image.text}` of the map does not exist{suggestion(nearest(image.text, images))}"
+            yield (
+                image,
+                f"image `{image.text}` of the map does not exist" + Suggestion(nearest(image.text, images), image.text),
+            )
         mode = root.find("mode")
         if mode is not None and mode.text and mode.text not in _MODES:
-            hint = suggestion(nearest(mode.text, _MODES)) or f"; write one of {', '.join(_MODES)}"
-            yield mode, f"unknown `mode` `{mode.text}` of the map{hint}"
+            hint = Suggestion(nearest(mode.text, _MODES), mode.text) or f"; write one of {', '.join(_MODES)}"
+            yield mode, f"unknown `mode` `{mode.text}` of the map" + hint
         length, low, high = number_of(resolution), number_of(free), number_of(occupied)
         if origin is not None and origin.kind == "list" and len(origin.items) != 3:
             yield origin, f"`origin` of the map has {len(origin.items)} values; write x, y and yaw"

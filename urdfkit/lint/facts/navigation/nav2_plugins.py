@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, number_of, walk
@@ -66,7 +67,7 @@ def _wrong_key(group: Node) -> Defects:
         for key, value in node.entries:
             is_class = value.kind == "text" and re.fullmatch(r"(?:nav2_\w+|dwb_\w+)(?:::|/)\w+", value.text)
             if key.text in ("type", "plugin_type", "class", "plugin_name") and is_class and node.find("plugin") is None:
-                yield key, f"unknown key `{key.text}` of a plugin; did you mean `plugin`?"
+                yield key, f"unknown key `{key.text}` of a plugin" + Suggestion("plugin", key.text)
 
 
 def _unlisted(name: str, group: Node) -> Defects:
@@ -113,7 +114,7 @@ def _driving(group: Node) -> Defects:
             first, dot, _ = key.text.partition(".")
             near = next((each for each in sorted(names) if is_slip(first, each)), None)
             if dot and first not in names and near is not None:
-                yield key, f"`critics` does not list `{first}`; did you mean `{near}`?"
+                yield key, f"`critics` does not list `{first}`" + Suggestion(near, first)
 
 
 def _swapped_frames(group: Node) -> Defects:

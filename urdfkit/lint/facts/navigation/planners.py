@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
@@ -101,18 +102,18 @@ def _in_ros1(source: Source) -> Defects:
             for old, new in _OTHER_NAMES.get(key.text, {}).items():
                 place = next((inner for inner, _ in value.entries if inner.text == old), None)
                 if place is not None and value.find(new) is None:
-                    yield source, place, f"`{key.text}` has no parameter `{old}`; did you mean `{new}`?"
+                    yield source, place, f"`{key.text}` has no parameter `{old}`" + Suggestion(new, old)
             is_class = key.text in (*_LOADED, "type") and value.kind == "text"
             if is_class and value.text.startswith("nav2_") and re.search("costmap_2d|planner", value.text):
                 yield source, value, f"plugin `{value.text}` is of Nav2, which ROS 1 does not have"
             elif key.text == "type" and (at := re.fullmatch(r"costmap_2d/(\w+)", value.text)):
-                yield source, value, f"unknown plugin `{value.text}`; did you mean `costmap_2d::{at[1]}`?"
+                yield source, value, f"unknown plugin `{value.text}`" + Suggestion(f"costmap_2d::{at[1]}", value.text)
             elif key.text in _LOADED or (key.text == "type" and value.text.startswith("costmap_2d")):
                 package, _, kind = value.text.replace("::", "/").partition("/")
                 classes = _PACKAGES.get(package, ())
                 if classes and kind not in classes and "/" not in kind:
                     near = nearest(kind, classes, cutoff=0.5) or classes[0]
-                    yield source, value, f"`{package}` has no plugin `{kind}`; did you mean `{near}`?"
+                    yield source, value, f"`{package}` has no plugin `{kind}`" + Suggestion(near, kind)
 
 
 def _mixed(source: Source) -> Defects:

@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import launch_reader, parsed
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
@@ -76,14 +77,14 @@ def misnamed(model: Model) -> Defects:
             ):
                 if not any(is_slip(near[1], each) for each in NODES) and (near[0].line, near[0].column) not in seen:
                     seen.add((near[0].line, near[0].column))
-                    message = f"no node is called `{near[1]}`; did you mean `{name}`?"
+                    message = f"no node is called `{near[1]}`" + Suggestion(name, near[1])
                     yield by_file[file], span_of(by_file[file], near[0]), message
             elif near is not None and node.name is not None:
-                message = f"node `{name}` has no section in {_short(file)}; did you mean `{near[1]}`?"
+                message = f"node `{name}` has no section in {_short(file)}" + Suggestion(near[1], name)
                 yield node.source, _span(node), message
             elif node.name is not None and len(keys) == len(readers) == 1 and _has_one_node(node):
                 if keys[0][1] not in started and name in _RELEASED_NAMES:
-                    message = f"no node is called `{keys[0][1]}`; did you mean `{name}`?"
+                    message = f"no node is called `{keys[0][1]}`" + Suggestion(name, keys[0][1])
                     yield by_file[file], span_of(by_file[file], keys[0][0]), message
                 elif keys[0][1] not in started:
                     message = f"node `{name}` has no section in {_short(file)}, whose only section is `{keys[0][1]}`"
@@ -173,7 +174,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
         for name, span in listed:
             near = next((each for each in sorted(started - names_listed) if _is_meant(each, name)), None)
             if name not in started | _RELEASED_NAMES and near is not None:
-                yield source, span, f"no node is called `{name}`; did you mean `{near}`?"
+                yield source, span, f"no node is called `{name}`" + Suggestion(near, name)
             elif (
                 near is None
                 and name in NODES - own - started
@@ -184,8 +185,8 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
                 unknown.append((name, span))
         meant = {_RENAMED.get(name) for name, _ in unknown}
         for name, span in unknown:
-            hint = f"; did you mean `{_RENAMED[name]}`?" if name in _RENAMED else ""
-            yield source, span, f"no launch file of these packages starts the node `{name}`{hint}"
+            hint = Suggestion(_RENAMED.get(name), name)
+            yield source, span, f"no launch file of these packages starts the node `{name}`" + hint
         for name, span in unlisted:
             if name in meant:
                 continue

@@ -8,8 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import suggestion
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launched_nodes import launches, started
 from urdfkit.lint.facts.topics.words import Words
@@ -36,4 +36,4 @@ def unmanaged_nodelets(model: Model) -> Iterator[tuple[Source, Named, str]]:
             name = manager.name.rpartition("/")[2]
             if name not in names and not words.names(name, [(source.file, manager.start)]):
                 near = names[0] if len(names) == 1 else nearest(name, names)
-                yield source, manager, f"no launch file starts the nodelet manager `{name}`{suggestion(near)}"
+                yield source, manager, f"no launch file starts the nodelet manager `{name}`" + Suggestion(near, name)

@@ -9,8 +9,8 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.numbers import number
-from urdfkit.errors import suggestion
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launched_nodes import launches, started
 from urdfkit.lint.facts.moveit.srdf import semantics_of
@@ -57,7 +57,7 @@ def _of_options(arguments: tuple[Named | None, ...], model: Model) -> Iterator[t
     for at, word in options:
         if word.name not in (*_FRAMES, *_NUMBERS):
             near = nearest(word.name, [each for each in (*_FRAMES, *_NUMBERS) if each not in written], cutoff=0.8)
-            yield word, f"unknown option `{word.name}`" + (f"; did you mean `{near}`?" if near else "")
+            yield word, f"unknown option `{word.name}`" + Suggestion(near, word.name)
             return
         values[word.name] = arguments[at + 1] if at + 1 < len(arguments) else None
     missing = [name for name in _FRAMES if name not in values]
@@ -122,7 +122,7 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
         near = _meant(names[0], links)
         is_separate = child is not None and names[1] not in links and not re.search(_OF_OTHERS, names[0])
         if near is not None or (is_separate and not model.is_incomplete):
-            yield parent, f"robot `{model.robot.name}` has no link `{names[0]}`{suggestion(near)}"
+            yield parent, f"robot `{model.robot.name}` has no link `{names[0]}`" + Suggestion(near, names[0])
     if child is None or names[1] not in links or model.is_incomplete:
         return
     joint = next((joint for joint in model.robot.joints if joint.child == names[1]), None)

@@ -10,8 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import nearest, suggestion
+from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
@@ -75,11 +76,11 @@ def launch_parameter_defects(source: Source) -> Defects:
         for name, (key, value) in written.items():
             right, text = renamed.get(name), value.name.strip()
             if right is not None and right not in written:
-                yield key, f"`{package}` has no parameter `{name}`; did you mean `{right}`?"
+                yield key, f"`{package}` has no parameter `{name}`" + Suggestion(right, name)
             choices = _CHOICES.get((package, name), ())
             if choices and text not in choices and "$" not in text:
-                hint = suggestion(nearest(text, choices)) or f"; write one of {', '.join(choices)}"
-                yield value, f"unknown `{name}` `{text}` of {package}{hint}"
+                hint = Suggestion(nearest(text, choices), text) or f"; write one of {', '.join(choices)}"
+                yield value, f"unknown `{name}` `{text}` of {package}" + hint
             if name in numbers and "$" not in text and _number(text) is None:
                 yield value, f"`{name}` is `{text}`, which is not a number"
         for low, high in (*ORDERED, ("min_particles", "max_particles")):

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk
@@ -28,7 +29,7 @@ def node_defects(source: Source) -> Defects:
         for name, parameter, value in parameters(group):
             right = others.get(name)
             if right is not None and right not in written and not _is_named_by(group, name):
-                yield parameter, f"`{key.text}` has no parameter `{name}`; did you mean `{right}`?"
+                yield parameter, f"`{key.text}` has no parameter `{name}`" + Suggestion(right, name)
             for pattern, type in schemas().get(kind, ()):
                 if fnmatchcase(name, pattern) and (problem := _problem(name, value, type)):
                     yield (parameter if value.kind == "group" else value), problem
@@ -142,7 +143,7 @@ def _renamed_in_groups(node: Node) -> Defects:
         for key, _ in node.entries:
             right = OF_GROUPS.get(kind, {}).get(key.text)
             if right is not None and right not in names:
-                yield key, f"`{kind}` has no parameter `{key.text}`; did you mean `{right}`?"
+                yield key, f"`{kind}` has no parameter `{key.text}`" + Suggestion(right, key.text)
 
 
 def _shared_axes(group: Node) -> Defects:

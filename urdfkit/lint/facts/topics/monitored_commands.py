@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from urdfkit.errors import suggestion
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, start_of, yamls
 from urdfkit.lint.facts.navigation.sections import sections
@@ -46,5 +46,5 @@ def unconnected_monitors(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 others = "velocity_smoother" in source.text if is_input else velocity_inputs(model)
                 if (others or near is not None) and not words.names(topic, [(source.file, start_of(source, value))]):
                     verb = "publishes" if is_input else "reads"
-                    message = f"no node {verb} the velocity commands on `{value.text}`{suggestion(near)}"
+                    message = f"no node {verb} the velocity commands on `{value.text}`" + Suggestion(near, value.text)
                     yield source, value, message

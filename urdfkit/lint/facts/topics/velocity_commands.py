@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import suggestion
 from urdfkit.lint.facts.control.controller_joints import Named, controllers
 from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
@@ -101,7 +101,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                 continue
             left = [each for each in names if each not in written]
             near = new.name if new.name in left else nearest(name, left, cutoff=0.6)
-            yield node.source, old, f"`{label}` has no topic `{name}`{suggestion(near)}"
+            yield node.source, old, f"`{label}` has no topic `{name}`" + Suggestion(near, name)
 
 
 def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
@@ -131,8 +131,8 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
         unfed = sorted(readers - used)
         near = unfed[0] if len(unfed) == 1 else nearest(topic, unfed, cutoff=0.7)
         shown = ", ".join(f"`{name}`" for name in sorted(readers)[:3])
-        what = suggestion(near) if near is not None else f"; the nodes of these packages read {shown}"
-        yield node.source, new, f"no node reads the velocity commands on `{new.name}`{what}"
+        what = Suggestion(near, new.name) if near is not None else f"; the nodes of these packages read {shown}"
+        yield node.source, new, f"no node reads the velocity commands on `{new.name}`" + what
 
 
 def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str]]:
@@ -151,7 +151,11 @@ def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 if topic is None or near is None or near in set(_mux_topics(model)):
                     continue
                 if not words.names(name, [(source.file, start_of(source, topic))]):
-                    yield source, topic, f"no node publishes velocity commands on `{topic.text}`{suggestion(near)}"
+                    yield (
+                        source,
+                        topic,
+                        f"no node publishes velocity commands on `{topic.text}`" + Suggestion(near, topic.text),
+                    )
 
 
 def velocity_inputs(model: Model) -> frozenset[str]:

@@ -1,5 +1,6 @@
 """C703 hardware-interface-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.robot import Transmission
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.hardware_interfaces import (
@@ -83,7 +84,7 @@ class HardwareInterfaceUnknown(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"unknown hardware interface `{text}`; did you mean `{qualified}`?",
+                f"unknown hardware interface `{text}`" + Suggestion(qualified, text),
                 fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )
         is_simulated = has_default_hardware(model.robot) or (

@@ -1,5 +1,6 @@
 """C710 interface-combination-invalid."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
@@ -71,7 +72,7 @@ class InterfaceCombination(RobotRule):
                             message = f"duplicate {kind.replace('_', ' ')} `{name}` of joint `{joint.get('name')}`"
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
                         elif suggestion is not None:
-                            message = f"unknown interface `{name}`; did you mean `{suggestion}`?"
+                            message = f"unknown interface `{name}`" + Suggestion(suggestion, name)
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
                         elif kind == "command_interface" and name not in _SIMULATED and runs_ros2_control(model.robot):
                             message = f"the simulator has no command interface `{name}`"

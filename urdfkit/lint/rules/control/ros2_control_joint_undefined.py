@@ -80,7 +80,7 @@ class Ros2ControlJointUndefined(RobotRule):
                 finding = self.at(
                     model,
                     element,
-                    f"<ros2_control> `{block.name}` names the undefined joint `{name}`{hint}",
+                    f"<ros2_control> `{block.name}` names the undefined joint `{name}`" + hint,
                     attribute="name",
                     joint=name,
                     fix=new_value(model, element, "name", near, "unsafe", f"Replace with `{near}`") if near else None,

@@ -66,7 +66,7 @@ class Ros2ControlTypeUnknown(RobotRule):
             yield self.at(
                 model,
                 block.element,
-                f"unknown <ros2_control> type `{value}`{hint}",
+                f"unknown <ros2_control> type `{value}`" + hint,
                 attribute="type",
                 fix=new_value(model, block.element, "type", near, "safe", f"Replace with `{near}`") if near else None,
             )

@@ -86,7 +86,7 @@ class TransmissionJointUndefined(RobotRule):
                 finding = self.at(
                     model,
                     part.element,
-                    f"transmission `{transmission.name}` names the undefined joint `{part.name}`{hint}",
+                    f"transmission `{transmission.name}` names the undefined joint `{part.name}`" + hint,
                     attribute="name",
                     joint=part.name,
                     names=(near,) if near else (),

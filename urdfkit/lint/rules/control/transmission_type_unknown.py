@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -80,7 +81,7 @@ class TransmissionTypeUnknown(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"unknown transmission type `{element.text}`; did you mean `{qualified}`?",
+                f"unknown transmission type `{element.text}`" + Suggestion(qualified, element.text),
                 fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )
 

@@ -1,5 +1,6 @@
 """E009 unknown-attribute."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.fix_builders import nearest, new_name, without_attribute
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES
@@ -93,7 +94,7 @@ class UnknownAttribute(RobotRule):
                     element,
                     f"unknown attribute `{attribute}` of <{element.tag}>",
                     attribute=attribute,
-                    help=f"did you mean `{suggestion}`?"
+                    help=Suggestion(suggestion, before="")
                     if suggestion
                     else f"known attributes: {', '.join(allowed) or 'none'}",
                     fix=fix,

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Fix
 from urdfkit.lint.fix_builders import nearest, new_tag
@@ -78,11 +79,11 @@ class UnknownElement(RobotRule):
         if robot.tag != "robot":
             fix = new_tag(model, robot, "robot", "unsafe", "Rename to <robot>")
             message = f"root element <{robot.tag}> is not a robot description"
-            yield self.at(model, robot, message, help="did you mean `robot`?", fix=fix, severity="error")
+            yield self.at(model, robot, message, help=Suggestion("robot", before=""), fix=fix, severity="error")
         for child in robot.children:
             if (tag := misspelt_in_robot(child)) is not None:
                 fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
-                help = f"did you mean `{tag}`?"
+                help = Suggestion(tag, before="")
                 yield self.at(model, child, _message(robot, child), help=help, fix=fix, severity="error")
         yield from self._check_control(model)
         for link in model.robot.links:
@@ -117,7 +118,7 @@ class UnknownElement(RobotRule):
 
             for parent, child, tag in misspelt_parts(element, element.tag):
                 fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
-                yield self.at(model, child, _message(parent, child), help=f"did you mean `{tag}`?", fix=fix)
+                yield self.at(model, child, _message(parent, child), help=Suggestion(tag, before=""), fix=fix)
 
 
 def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
@@ -153,7 +154,7 @@ def _hint(parent: Element, child: Element) -> str | None:
     near = nearest(child.tag, URDF_CHILDREN[parent.tag], cutoff=0.7)
     if near is None and child.attributes and parent.tag == "inertial":
         return "to call a macro, add the prefix `xacro:` and process the file with xacro"
-    return f"did you mean `{near}`?" if near else None
+    return Suggestion(near, before="") if near else None
 
 
 def _renamed(model: Model, parent: Element, child: Element) -> Fix | None:

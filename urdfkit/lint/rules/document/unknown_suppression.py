@@ -54,13 +54,13 @@ class UnknownSuppression(Rule):
         rule_codes = tuple(codes)
         for suppression in suppressions:
             if suppression.verb not in ("ignore", "ignore-file"):
-                message = f"unknown suppression `urdfkit: {suppression.verb}`{did_you_mean(suppression.verb, _VERBS)}"
+                message = f"unknown suppression `urdfkit: {suppression.verb}`" + did_you_mean(suppression.verb, _VERBS)
                 yield self.at(
                     model, suppression.position, message, help="write ignore or ignore-file, followed by rule codes"
                 )
             for code in suppression.codes:
                 if code not in rule_codes:
-                    message = f"unknown rule `{code}` in suppression{did_you_mean(code, rule_codes)}"
+                    message = f"unknown rule `{code}` in suppression" + did_you_mean(code, rule_codes)
                     yield self.at(model, suppression.position, message)
 
 

@@ -1,5 +1,6 @@
 """Z824 gazebo-material-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -54,7 +55,7 @@ class GazeboMaterialUnknown(RobotRule):
                     model,
                     element,
                     f"unknown Gazebo material `{name}`",
-                    help=f"did you mean `{suggestion}`?" if suggestion else None,
+                    help=Suggestion(suggestion, before="") if suggestion else None,
                     fix=new_text(model, element, suggestion, "unsafe", f"Replace with `{suggestion}`")
                     if suggestion
                     else None,

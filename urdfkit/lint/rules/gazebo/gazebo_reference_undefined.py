@@ -92,7 +92,7 @@ class GazeboReferenceUndefined(RobotRule):
             finding = self.at(
                 model,
                 block.element,
-                f"`{name}` is neither a link nor a joint{hint}",
+                f"`{name}` is neither a link nor a joint" + hint,
                 attribute="reference",
                 help=None if near else "correct the reference, or remove the block",
                 fix=new_value(model, block.element, "reference", near, "unsafe", f"Replace with `{near}`")

@@ -1,5 +1,6 @@
 """Z811 gazebo-unknown-link-tag."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.fix_builders import nearest, new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -122,7 +123,7 @@ class GazeboUnknownTag(RobotRule):
                         model,
                         child,
                         f"unknown element <{child.tag}> in <gazebo>",
-                        help=f"did you mean <{suggestion}>?",
+                        help=Suggestion(f"<{suggestion}>", before=""),
                         fix=new_tag(model, child, suggestion, "unsafe", f"Rename to <{suggestion}>"),
                     )
             for sensor in block.sensors:
@@ -132,6 +133,6 @@ class GazeboUnknownTag(RobotRule):
                         model,
                         element,
                         f"unknown element <{element.tag}> in <{unknown.inside}> of a sensor",
-                        help=f"did you mean <{near}>?" if near else None,
+                        help=Suggestion(f"<{near}>", before="") if near else None,
                         fix=new_tag(model, element, near, "unsafe", f"Rename to <{near}>") if near else None,
                     )

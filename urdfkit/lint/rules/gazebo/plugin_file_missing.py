@@ -79,5 +79,5 @@ def _described(path: Path) -> tuple[str, Severity] | None:
         return None
     build_files = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
     is_generated = any(path.name in file.read_text("utf-8", "replace") for file in build_files)
-    message = f"`{path.relative_to(package)}` does not exist in package {package.name}{near_path(path)}"
+    message = f"`{path.relative_to(package)}` does not exist in package {package.name}" + near_path(path)
     return message, "note" if is_generated else "warning"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.plugins import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
@@ -98,8 +99,8 @@ class PluginJointUndefined(RobotRule):
 
     def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Findings:
         from urdfkit.description.plugins import values
-        from urdfkit.errors import did_you_mean
-        from urdfkit.lint.fix_builders import meant, new_text
+        from urdfkit.errors import did_you_mean, nearest
+        from urdfkit.lint.fix_builders import new_text
 
         joints = model.as_written.joint_by_name
         named = [(text, element) for text, element in values(plugin, parameter) if text]
@@ -121,8 +122,8 @@ class PluginJointUndefined(RobotRule):
                 help = f"add the prefix `xacro:` to {_unprefixed_call(model, text)}, which defines the joint"
             else:
                 is_single = not parameter.separator or parameter.separator not in element.text
-                near, hint = meant(text.strip("\"'"), joints)
-                help = hint.removeprefix("; ") or f"joints of the robot: {', '.join(joints) or 'none'}"
+                near = nearest(text.strip("\"'"), joints, cutoff=0.7)
+                help = Suggestion(near, before="") or f"joints of the robot: {', '.join(joints) or 'none'}"
                 fix = new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near and is_single else None
             finding = self.at(model, element, message, joint=text, help=help, fix=fix)
             yield from (
@@ -135,7 +136,7 @@ class PluginJointUndefined(RobotRule):
                 plugin.element,
                 f"<{parameter.tag}> is missing, and its default `{default}` is not a joint",
                 joint=default,
-                help=f"add <{parameter.tag}>…</{parameter.tag}>{did_you_mean(default, joints)}",
+                help=f"add <{parameter.tag}>…</{parameter.tag}>" + did_you_mean(default, joints),
             )
             yield from unless_masked(model, default, None, finding)
 

@@ -60,7 +60,7 @@ class PluginLinkUndefined(RobotRule):
             finding = self.at(
                 model,
                 element,
-                f"<{parameter.tag}> names the undefined link `{text}`{hint}",
+                f"<{parameter.tag}> names the undefined link `{text}`" + hint,
                 link=text,
                 fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
             )

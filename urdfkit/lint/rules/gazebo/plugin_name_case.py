@@ -1,5 +1,6 @@
 """Z808 plugin-name-case."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -62,7 +63,7 @@ class PluginNameCase(RobotRule):
                 yield self.at(
                     model,
                     plugin.element,
-                    f"unknown class `{name}`; did you mean `{expected}`?",
+                    f"unknown class `{name}`" + Suggestion(expected, name),
                     attribute="name",
                     fix=new_value(model, plugin.element, "name", expected, "safe", f"Replace with `{expected}`"),
                 )

@@ -1,5 +1,6 @@
 """Z805 plugin-param-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
 from urdfkit.lint.fix_builders import new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -65,7 +66,7 @@ class PluginParamUnknown(RobotRule):
                     model,
                     parameter.element,
                     parameter.message,
-                    help=f"did you mean <{suggestion}>?" if suggestion else None,
+                    help=Suggestion(f"<{suggestion}>", before="") if suggestion else None,
                     fix=new_tag(model, parameter.element, suggestion, "unsafe", f"Rename to <{suggestion}>")
                     if suggestion
                     else None,

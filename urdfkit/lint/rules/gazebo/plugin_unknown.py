@@ -1,5 +1,6 @@
 """Z825 plugin-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.control.exported_plugins import is_built_library
 from urdfkit.lint.facts.gazebo.plugins import plugins
@@ -89,7 +90,7 @@ class PluginUnknown(RobotRule):
 
     def _finding(self, model: Model, plugin: Plugin, attribute: str, message: str, expected: str) -> Finding:
         fix = new_value(model, plugin.element, attribute, expected, "unsafe", f"Replace with `{expected}`")
-        return self.at(model, plugin.element, f"{message}; did you mean `{expected}`?", attribute=attribute, fix=fix)
+        return self.at(model, plugin.element, message + Suggestion(expected), attribute=attribute, fix=fix)
 
 
 def _all_classes() -> list[str]:

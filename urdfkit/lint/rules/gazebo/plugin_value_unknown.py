@@ -83,9 +83,9 @@ class PluginValueUnknown(RobotRule):
             if "$" in text or child.children:
                 continue
             if child.tag == "output_type" and text not in _OUTPUTS:
-                message = f"unknown output type `{text}`{meant(text, _OUTPUTS)[1]}"
+                message = f"unknown output type `{text}`" + meant(text, _OUTPUTS)[1]
                 yield self.at(model, child, message, help=f"use one of {', '.join(_OUTPUTS)}")
             elif child.tag == "robotSimType" and text not in _SIM_TYPES and nearest(text, _SIM_TYPES, cutoff=0.8):
-                yield self.at(model, child, f"unknown robotSimType `{text}`{meant(text, _SIM_TYPES)[1]}")
+                yield self.at(model, child, f"unknown robotSimType `{text}`" + meant(text, _SIM_TYPES)[1])
             elif child.tag == "remapping" and ":=" not in text:
                 yield self.at(model, child, f"remapping `{text}` is not of the form `from:=to`")

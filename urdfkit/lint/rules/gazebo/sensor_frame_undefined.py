@@ -68,7 +68,7 @@ class SensorFrameUndefined(RobotRule):
             finding = self.at(
                 model,
                 element,
-                f"<{tag}> names the undefined frame `{text}`{hint}",
+                f"<{tag}> names the undefined frame `{text}`" + hint,
                 fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
             )
             yield from unless_masked(model, text, near, finding)

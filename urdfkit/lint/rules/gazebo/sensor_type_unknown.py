@@ -1,5 +1,6 @@
 """Z827 sensor-type-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.fix_builders import nearest, new_value
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -90,7 +91,7 @@ class SensorTypeUnknown(RobotRule):
                 yield self.at(
                     model,
                     sensor.element,
-                    f"{defect} `{kind}`; did you mean `{expected}`?",
+                    f"{defect} `{kind}`" + Suggestion(expected, kind),
                     attribute="type",
                     fix=new_value(model, sensor.element, "type", expected, "unsafe", f"Replace with `{expected}`"),
                 )

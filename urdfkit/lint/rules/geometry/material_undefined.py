@@ -1,5 +1,6 @@
 """G612 material-undefined."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.robot import Material
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -92,7 +93,7 @@ class MaterialUndefined(RobotRule):
                 f"undefined material `{name}`",
                 attribute="name",
                 fix=_with_colour(model, material),
-                help=f"did you mean `{near}`?"
+                help=Suggestion(near, before="")
                 if near
                 else f'add <material name="{name}"><color rgba="…"/></material> to the robot',
             )

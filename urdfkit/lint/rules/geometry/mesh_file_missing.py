@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_absolute, is_file
-from urdfkit.errors import suggestion
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.mesh_files import is_remote, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -77,7 +77,7 @@ class MeshFileMissing(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"mesh `{mesh.uri.strip()}` not found{suggestion(near)}",
+                f"mesh `{mesh.uri.strip()}` not found" + Suggestion(near),
                 attribute="filename",
                 link=link.name,
                 fix=new_value(model, element, "filename", uri, "unsafe", f"Replace with `{uri}`")

@@ -1,5 +1,6 @@
 """G602 mesh-package-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.model.mesh_files import missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -44,7 +45,6 @@ class MeshPackageUnknown(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each mesh of a missing package; those of one package have one cause."""
         from urdfkit.description.packages.related_files import neighbours
-        from urdfkit.errors import suggestion
         from urdfkit.lint.facts.ros_packages import misspelling_of
 
         exists: dict[str, bool] = {}
@@ -63,7 +63,7 @@ class MeshPackageUnknown(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"package `{name}` of the mesh not found in workspace or environment{suggestion(near[name])}"
+                f"package `{name}` of the mesh not found in workspace or environment" + Suggestion(near[name])
                 if name
                 else f"mesh URI `{uri}` has three slashes, so it contains no package",
                 attribute="filename",

@@ -1,5 +1,6 @@
 """J402 joint-type-unknown."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.fix_builders import nearest, new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -73,8 +74,7 @@ class JointTypeUnknown(RobotRule):
             yield self.at(
                 model,
                 joint.element,
-                f"unknown type `{joint.type}` of joint `{joint.name}`"
-                + (f"; did you mean `{suggestion}`?" if suggestion else ""),
+                f"unknown type `{joint.type}` of joint `{joint.name}`" + Suggestion(suggestion),
                 attribute="type",
                 joint=joint.name,
                 help=f"use one of {', '.join(JOINT_TYPES)}",

@@ -96,7 +96,7 @@ class MimicJointUndefined(RobotRule):
             finding = self.at(
                 model,
                 mimic.element,
-                f"joint `{joint.name}` mimics the undefined joint `{mimic.joint}`{hint}",
+                f"joint `{joint.name}` mimics the undefined joint `{mimic.joint}`" + hint,
                 attribute="joint",
                 joint=joint.name,
                 fix=new_value(model, mimic.element, "joint", suggestion, "unsafe", f"Replace with `{suggestion}`")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.launch.executables import Executables
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -53,7 +54,6 @@ class ExecutableUnknown(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown executable."""
         from urdfkit.description.packages.related_files import neighbours
-        from urdfkit.errors import suggestion
         from urdfkit.lint.facts.launch.actions import launch_files
         from urdfkit.lint.facts.launch.executables import (
             executables_of,
@@ -107,6 +107,6 @@ class ExecutableUnknown(RobotRule):
                 if meant is None and not found.is_complete and program not in others:
                     continue
                 release = f" in {_RELEASES[version]}" if program in others else ""
-                message = f"package `{package}` has no executable `{program}`{release}{suggestion(meant)}"
+                message = f"package `{package}` has no executable `{program}`{release}" + Suggestion(meant, program)
                 span = file.source.span(node.program.start, node.program.start + len(program))
                 yield self.at_span(span, message, names=(program,))

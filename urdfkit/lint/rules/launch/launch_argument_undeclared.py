@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.records import LaunchActions
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -84,11 +85,11 @@ class LaunchArgumentUndeclared(RobotRule):
             return
         if near is not None and near not in used and _is_rarer(near, use.name, file):
             place = file.declared[near].name
-            message = f"launch argument `{near}` is declared but not used; did you mean `{use.name}`?"
+            message = f"launch argument `{near}` is declared but not used" + Suggestion(use.name, near)
         else:
             place = use
-            hint = f"; did you mean `{near}`?" if near is not None else ""
-            message = f"launch argument `{use.name}` is not declared{hint}"
+            hint = Suggestion(near, use.name)
+            message = f"launch argument `{use.name}` is not declared" + hint
         span = file.source.span(place.start, place.start + len(place.name))
         severity = "warning" if has_default else self.severity
         yield self.at_span(span, message, severity=severity)

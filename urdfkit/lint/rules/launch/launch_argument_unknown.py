@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.records import Call, LaunchActions
 from urdfkit.lint.finding import Finding, Severity
@@ -64,14 +65,14 @@ class LaunchArgumentUnknown(RobotRule):
                 if actions is not None:
                     yield from self._include(file, call, actions, model)
                 elif path is None and (near := misspelt_file(call)) is not None:
-                    message = f"package `{call.package}` has no launch file `{call.path}`; did you mean `{near}`?"
+                    message = f"package `{call.package}` has no launch file `{call.path}`" + Suggestion(near, call.path)
                     written = call.path.rpartition("/")[2]
                     start = max(file.source.text.find(written, call.start), call.start)
                     yield self._at(file, Named(written, start), message, "error")
                 elif outside is not None and folder != "launch":
                     start = max(file.source.text.find(call.path, call.start), call.start)
-                    message = (
-                        f"package `{call.package}` has no launch file `{call.path}`; did you mean `launch/{name}`?"
+                    message = f"package `{call.package}` has no launch file `{call.path}`" + Suggestion(
+                        f"launch/{name}", call.path
                     )
                     yield self._at(file, Named(call.path, start), message, "error")
                 elif outside is not None:
@@ -146,7 +147,6 @@ class LaunchArgumentUnknown(RobotRule):
         only_misspelt: bool,
         severity: Severity,
     ) -> Findings:
-        from urdfkit.errors import suggestion
         from urdfkit.lint.facts.launch.python_api import first_slip
         from urdfkit.lint.fix_builders import meant
 
@@ -158,9 +158,9 @@ class LaunchArgumentUnknown(RobotRule):
             near = meant(name.name, others)[0] or first_slip(name.name, others)
             if near is None and only_misspelt:
                 near = _with_these_words(name.name, others)
-            hint = suggestion(near)
+            hint = Suggestion(near, name.name)
             if near is not None or not only_misspelt:
-                yield self._at(file, name, f"{target} has no argument `{name.name}`{hint}", severity)
+                yield self._at(file, name, f"{target} has no argument `{name.name}`" + hint, severity)
 
     def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
         span = file.source.span(name.start, name.start + len(name.name))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.model.tags import Attribute, Tag
@@ -84,10 +85,10 @@ class LaunchElementInvalid(RobotRule):
         others, defined = OTHER_SUBSTITUTIONS[version], SUBSTITUTIONS[version]
         for use in re.finditer(r"\$\(([\w-]+)(?=[\s)])", uncommented(source)):
             if use[1] in others:
-                message = f"unknown substitution `{use[1]}` in ROS {version}; did you mean `{others[use[1]]}`?"
+                message = f"unknown substitution `{use[1]}` in ROS {version}" + Suggestion(others[use[1]], use[1])
                 yield self._at(source, use.span(1), message)
             elif use[1] not in defined and (near := nearest(use[1], defined, cutoff=0.6)) is not None:
-                yield self._at(source, use.span(1), f"unknown substitution `{use[1]}`; did you mean `{near}`?")
+                yield self._at(source, use.span(1), f"unknown substitution `{use[1]}`" + Suggestion(near, use[1]))
         # launch reports an unclosed substitution of ROS 2 itself; roslaunch takes it as text.
         for use in re.finditer(r"\$\((?:find|arg|env|optenv|anon)\s[^()\"'<>$]*(?=[\"'<>]|\$\()", uncommented(source)):
             yield self._at(source, use.span(), f"`{use[0]}` has no closing parenthesis")
@@ -110,8 +111,8 @@ class LaunchElementInvalid(RobotRule):
             near = _meant(attribute, tag, element.attributes, version)
             if near is not None:
                 misspelt.add(near)
-                hint = f"; did you mean `{near}`?" if near else ""
-                message = f"unknown attribute `{attribute.name}` of <{tag.name}>{hint}"
+                hint = Suggestion(near, attribute.name)
+                message = f"unknown attribute `{attribute.name}` of <{tag.name}>" + hint
                 place = (attribute.start, attribute.start + len(attribute.name))
                 # roslaunch ignores unknown attributes and prints a warning.
                 yield self._at(source, place, message, "error" if near else "warning")
@@ -142,7 +143,7 @@ def _unknown(name: str, above: str, version: int) -> str | None:
         return None
     near = next((other for other in sorted(valid) if differs_by_a_letter(name, other)), None)
     if near is not None:
-        return f"unknown element <{name}> in <{above}>; did you mean <{near}>?"
+        return f"unknown element <{name}> in <{above}>" + Suggestion(f"<{near}>", f"<{name}>")
     if is_open and name in OTHER_ELEMENTS[version]:
         other = OTHER_ELEMENTS[version][name]
         return f"<{name}> is not an action in ROS {version}" + (f"; use <{other}>" if other else "")

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import lru_cache
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.finding import Finding
@@ -96,13 +97,13 @@ class LaunchNameMisspelt(RobotRule):
                 if not (is_launch and written in actions_of(source).declared):
                     yield self._at(source, written, start, near)
             for key, node, near in () if is_launch else misspelt_parameters(source):
-                message = f"unknown parameter `{key.text}` of node `{node}`; did you mean `{near}`?"
+                message = f"unknown parameter `{key.text}` of node `{node}`" + Suggestion(near, key.text)
                 yield self.at_span(span_of(source, key), message, severity="warning")
             for key, kind, near in () if is_launch else misspelt_navigation(source):
                 if kind == "plugin" and is_exported_plugin(model, key.text):
                     continue
                 of = "Nav2" if "ros__parameters" in source.text else "costmap_2d"
-                message = f"unknown {kind} `{key.text}` in the parameters of {of}; did you mean `{near}`?"
+                message = f"unknown {kind} `{key.text}` in the parameters of {of}" + Suggestion(near, key.text)
                 yield self.at_span(span_of(source, key), message, severity="warning")
             for word in re.finditer(_COMMAND, uncommented(source)) if is_launch else ():
                 if _nearest(word[1], ("xacro",)) is not None:
@@ -110,7 +111,9 @@ class LaunchNameMisspelt(RobotRule):
             if is_launch and "moveit" in source.text:
                 yield from self._of_moveit(source)
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
-                message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"
+                message = f"unknown parameter `{parameter.name}` of a node of `{package}`" + Suggestion(
+                    near, parameter.name
+                )
                 span = source.span(parameter.start, parameter.start + len(parameter.name))
                 yield self.at_span(span, message, severity="warning", names=(near,))
             for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
@@ -140,7 +143,10 @@ class LaunchNameMisspelt(RobotRule):
                 yield self._at(source, word[1], word.start(1), near.removeprefix("robot_description"))
 
     def _at(self, source: Source, written: str, start: int, near: str) -> Finding:
-        message, span = f"unknown name `{written}`; did you mean `{near}`?", source.span(start, start + len(written))
+        message, span = (
+            f"unknown name `{written}`" + Suggestion(near, written),
+            source.span(start, start + len(written)),
+        )
         return self.at_span(span, message, kind="name", names=(near,))
 
 

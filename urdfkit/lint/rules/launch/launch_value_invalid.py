@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.model.tags import Attribute, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -102,7 +103,7 @@ _SYNONYMS = {"string": "str", "double": "float", "integer": "int", "boolean": "b
 def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> Iterator[tuple[Attribute, str]]:
     import re
 
-    from urdfkit.errors import did_you_mean, nearest, suggestion
+    from urdfkit.errors import did_you_mean, nearest
     from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
     attributes = tag.attributes
@@ -120,7 +121,7 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
             yield attribute, f"{what} `{attribute.value}` is neither true nor false"
     output = attributes.get("output") if tag.name in ("node", "test", "executable") else None
     if output is not None and not is_output(output.value, version):
-        yield output, f"unknown output `{output.value}`{did_you_mean(output.value, OUTPUTS[version])}"
+        yield output, f"unknown output `{output.value}`" + did_you_mean(output.value, OUTPUTS[version])
     if version == 1 and tag.name == "rosparam" and "command" in attributes:
         yield from _parameter_command(attributes, model)
     elif version == 1 and tag.name == "param":
@@ -128,7 +129,11 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
     type = attributes.get("type") if tag.name == "param" else None
     if type is not None and "$(" not in type.value and type.value not in _TYPES[version]:
         near = _SYNONYMS.get(type.value) or nearest(type.value, _TYPES[version])
-        yield type, f"unknown type `{type.value}` of a parameter{suggestion(near if near in _TYPES[version] else None)}"
+        yield (
+            type,
+            f"unknown type `{type.value}` of a parameter"
+            + Suggestion(near if near in _TYPES[version] else None, type.value),
+        )
 
 
 def _untyped(tags: list[Tag]) -> Iterator[Attribute]:
@@ -164,7 +169,7 @@ def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterat
     command = attributes["command"]
     if "$(" not in command.value and command.value not in ("load", "dump", "delete"):
         hint = did_you_mean(command.value, ("load", "dump", "delete"))
-        yield command, f"unknown command `{command.value}` of <rosparam>{hint}"
+        yield command, f"unknown command `{command.value}` of <rosparam>" + hint
     elif command.value == "dump" and "file" in attributes and model.package is not None:
         package, path = share_of(attributes["file"].value)
         folder = neighbours(model.package).get(package)

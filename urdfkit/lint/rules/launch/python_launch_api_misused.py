@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import LaunchReader
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
@@ -86,7 +87,7 @@ class PythonLaunchApiMisused(RobotRule):
         start, end = place(source, node)
         if near is not None:
             at = source.text.find(module, start, end)
-            message = f"unknown module `{module}`; did you mean `{near}`?"
+            message = f"unknown module `{module}`" + Suggestion(near, module)
             yield self._at(source, (at, at + len(module)) if at >= 0 else (start, end), message)
             return
         for word in node.names:
@@ -121,10 +122,10 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, (start, end), message)
             elif word.arg == "output" and _has_lists(kind) and not is_output(reader.text(word.value) or "$", 2):
                 text = reader.text(word.value) or ""
-                yield self._at(source, (start, end), f"unknown output `{text}`{did_you_mean(text, OUTPUTS[2])}")
+                yield self._at(source, (start, end), f"unknown output `{text}`" + did_you_mean(text, OUTPUTS[2]))
             if near is not None:
                 since = " since ROS 2 Galactic" if word.arg in OF_FOXY else ""
-                message = f"`{kind}` has no argument `{word.arg}`{since}; did you mean `{near}`?"
+                message = f"`{kind}` has no argument `{word.arg}`{since}" + Suggestion(near, word.arg)
                 yield self._at(source, (before, before + len(word.arg)), message)
             elif word.arg in LISTS and _has_lists(kind) and _is_no_list(word.value, reader):
                 yield self._at(source, (start, end), f"`{word.arg}` of `{kind}` is not a list; write it in brackets")

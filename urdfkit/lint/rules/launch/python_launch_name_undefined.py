@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -46,7 +47,6 @@ class PythonLaunchNameUndefined(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the first use of each undefined name, and for a missing description."""
-        from urdfkit.errors import suggestion
         from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import first_slip
         from urdfkit.lint.facts.launch.python_names import defined, python_files, undefined
@@ -54,7 +54,7 @@ class PythonLaunchNameUndefined(RobotRule):
         for source, tree in python_files(model):
             names = defined(tree) or set()
             for name, node in undefined(tree).items():
-                message = f"name `{name}` is not defined or imported{suggestion(first_slip(name, names))}"
+                message = f"name `{name}` is not defined or imported" + Suggestion(first_slip(name, names), name)
                 yield self.at_span(source.span(*place(source, node)), message)
             yield from self._description(source, tree, _FUNCTION in names)
 

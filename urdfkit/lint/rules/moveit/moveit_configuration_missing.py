@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -86,7 +87,7 @@ class MoveitConfigurationMissing(RobotRule):
         near = nearest(builder.package, packages, cutoff=0.8) if builder.package not in packages else None
         stems = [name.partition("_moveit")[0] for name in (builder.package, near or "")]
         if near is not None and (stems[0] == stems[1] or is_slip(builder.package, near)):
-            message = f"unknown package `{builder.package}`; did you mean `{near}`?"
+            message = f"unknown package `{builder.package}`" + Suggestion(near, builder.package)
             yield self.at_span(builder.place, message)
             return
         names = robot_names(model)
@@ -94,5 +95,5 @@ class MoveitConfigurationMissing(RobotRule):
             return
         near = nearest(builder.robot, [name for name in names if name.isidentifier()], cutoff=0.7)
         if near is not None:
-            message = f"no robot has the name `{builder.robot}`; did you mean `{near}`?"
+            message = f"no robot has the name `{builder.robot}`" + Suggestion(near, builder.robot)
             yield self.at_span(builder.robot_place, message, severity="warning")

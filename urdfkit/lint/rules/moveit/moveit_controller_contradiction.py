@@ -1,5 +1,6 @@
 """M112 moveit-controller-contradiction."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -59,7 +60,7 @@ class MoveitControllerContradiction(RobotRule):
                     taken = {each.name.text.strip("/").rpartition("/")[2] for each in entries(source)}
                     meant = meant_controller(entry, started, taken)
                     if meant is not None:
-                        message = f"no controller is called `{name}`; did you mean `{meant}`?"
+                        message = f"no controller is called `{name}`" + Suggestion(meant, name)
                         yield self.at_span(span_of(source, entry.name), message)
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import DefectMessage, Suggestion
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -108,7 +109,10 @@ def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node
     for key, _ in entry.settings.entries:
         near = nearest(key.text, [name for name in names if name not in written], cutoff=0.85)
         if key.text not in names and near is not None:
-            yield key, f"unknown parameter `{key.text}` of {entry.kind} `{entry.name.text}`; did you mean `{near}`?"
+            yield (
+                key,
+                f"unknown parameter `{key.text}` of {entry.kind} `{entry.name.text}`" + Suggestion(near, key.text),
+            )
 
 
 def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
@@ -120,7 +124,7 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     solver = entry.settings.find("kinematics_solver")
     near = nearest(solver.text, SOLVERS, cutoff=0.85) if solver is not None else None
     if solver is not None and near is not None and solver.text not in SOLVERS:
-        yield solver, f"unknown kinematics solver `{solver.text}`; did you mean `{near}`?"
+        yield solver, f"unknown kinematics solver `{solver.text}`" + Suggestion(near, solver.text)
     only_position = entry.settings.find("position_only_ik")
     if only_position is not None and only_position.kind == "text" and not only_position.is_plain:
         text = f'"{only_position.text}", a quoted string'
@@ -159,7 +163,8 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
 
     settings, joint = entry.settings, entry.name.text
     found = list(_misspelt(entry, LIMIT_KEYS))
-    misspelt = {message.split("`")[-2] for _, message in found}
+    suggestions = [DefectMessage.of(message).suggestion for _, message in found]
+    meant = {each.meant for each in suggestions if each is not None}
     yield from found
     for key, node in settings.entries:
         quantity, _, kind = key.text.removeprefix("has_").rpartition("_")
@@ -167,7 +172,7 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
         if is_flag and node.text.lower() in ("true", "yes", "on"):
             limit = settings.find(f"max_{quantity}")
             value = number_of(limit)
-            if limit is None and key.text in LIMIT_KEYS and f"max_{quantity}" not in misspelt:
+            if limit is None and key.text in LIMIT_KEYS and f"max_{quantity}" not in meant:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
             elif quantity == "position" and settings.find("min_position") is None:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `min_position` is missing"
@@ -197,4 +202,4 @@ def _controller(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     if kind is not None and kind.text not in (*CONTROLLER_TYPES, *OTHER_CONTROLLER_TYPES):
         near = nearest(kind.text, CONTROLLER_TYPES, cutoff=0.75)
         if near is not None:
-            yield kind, f"unknown type `{kind.text}` of controller `{entry.name.text}`; did you mean `{near}`?"
+            yield kind, f"unknown type `{kind.text}` of controller `{entry.name.text}`" + Suggestion(near, kind.text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -61,7 +62,7 @@ class SrdfElementUnknown(RobotRule):
                     tags = [other.rpartition("/")[2] for other in ELEMENTS if other.rpartition("/")[0] == parent]
                     suggestion = nearest(tag, tags, cutoff=0.8)
                     if suggestion is not None:
-                        message = f"unknown element <{tag}> of SRDF; did you mean <{suggestion}>?"
+                        message = f"unknown element <{tag}> of SRDF" + Suggestion(f"<{suggestion}>", f"<{tag}>")
                         yield self.at(model, element, message, severity=severity, kind=suggestion)
                     continue
                 missing = [name for name in attributes if name not in element.attributes and name not in OPTIONAL]
@@ -69,7 +70,7 @@ class SrdfElementUnknown(RobotRule):
                     suggestion = nearest(name, missing, cutoff=0.5) if name not in attributes else None
                     if suggestion is not None:
                         missing.remove(suggestion)
-                        message = f"unknown attribute `{name}` of <{element.tag}>; did you mean `{suggestion}`?"
+                        message = f"unknown attribute `{name}` of <{element.tag}>" + Suggestion(suggestion, name)
                         yield self.at(model, element, message, attribute=name, severity=severity, kind=element.tag)
                 for name in missing:
                     message = f"<{element.tag}> has no attribute `{name}`"
@@ -80,8 +81,8 @@ class SrdfElementUnknown(RobotRule):
                     yield from self._reason(element, model)
                 if key == "virtual_joint" and (kind := element.get("type")) not in (None, *_TYPES):
                     suggestion = nearest(kind or "", _TYPES)
-                    hint = f"; did you mean `{suggestion}`?" if suggestion else ""
-                    message = f"unknown type `{kind}` of virtual joint `{element.get('name')}`{hint}"
+                    hint = Suggestion(suggestion, kind)
+                    message = f"unknown type `{kind}` of virtual joint `{element.get('name')}`" + hint
                     help = f"use one of {', '.join(_TYPES)}"
                     yield self.at(model, element, message, attribute="type", help=help, severity=severity)
 
@@ -94,7 +95,7 @@ class SrdfElementUnknown(RobotRule):
         links = model.robot.link_by_name
         near = nearest(reason, _REASONS, cutoff=0.7) if reason not in _REASONS else None
         if near is not None and near.lower() != reason.lower():
-            message = f"unknown reason `{reason}`; did you mean `{near}`?"
+            message = f"unknown reason `{reason}`" + Suggestion(near, reason)
             yield self.at(model, pair, message, attribute="reason", severity="note")
         elif reason == "Never" and any(
             {joint.parent, joint.child} == {one, other} and joint.type != "fixed" for joint in model.robot.joints

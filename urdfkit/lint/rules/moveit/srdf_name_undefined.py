@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -74,7 +75,7 @@ class SrdfNameUndefined(RobotRule):
                     continue
                 if kind == "group" and suggestion is None:  # short names such as `arm`
                     slip = next((each for each in existing[kind] if is_slip(name, each)), None)
-                    hint = f"; did you mean `{slip}`?" if slip else ""
+                    hint = Suggestion(slip, name)
                 if kind == "group" and suggestion is not None and len(places) > 1 and (kind, suggestion) not in uses:
                     message = f"group `{suggestion}` is not used; did you mean `{name}`, which is used but undefined?"
                     group, severity = groups(root)[suggestion], severity_for(root, model)
@@ -99,7 +100,7 @@ class SrdfNameUndefined(RobotRule):
         return self.at(
             model,
             reference.element,
-            f"{kind} `{name}` of <{tag}> does not exist in {owner}{others}{hint}",
+            f"{kind} `{name}` of <{tag}> does not exist in {owner}{others}" + hint,
             attribute=reference.attribute,
             link=name if kind == "link" else None,
             joint=name if kind == "joint" else None,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
@@ -88,7 +89,7 @@ class BridgeMisspelt(RobotRule):
                 for key in keys:
                     suggestion = nearest(key.text, KEYS, cutoff=0.7) if key.text not in KEYS else None
                     if suggestion is not None:
-                        message = f"unknown key `{key.text}` of ros_gz_bridge; did you mean `{suggestion}`?"
+                        message = f"unknown key `{key.text}` of ros_gz_bridge" + Suggestion(suggestion, key.text)
                         yield self.at_span(span_of(source, key), message)
         for source in (each for each in sources if not each.file.endswith((".yaml", ".yml"))):
             for word in malformed_in_launch(source):
@@ -121,12 +122,14 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
     if bridge.ros is not None and ros_type not in compatible_types:
         suggestion = nearest(ros_type, compatible_types, cutoff=0.85)
         return (
-            (bridge.ros, f"unknown ROS type `{bridge.ros.name}`; did you mean `{suggestion}`?") if suggestion else None
+            (bridge.ros, f"unknown ROS type `{bridge.ros.name}`" + Suggestion(suggestion, bridge.ros.name))
+            if suggestion
+            else None
         )
     if bridge.gazebo is not None and gz_type not in gazebo_types:
         suggestion = nearest(gz_type, gazebo_types, cutoff=0.85)
         return (
-            (bridge.gazebo, f"unknown Gazebo type `{bridge.gazebo.name}`; did you mean `{suggestion}`?")
+            (bridge.gazebo, f"unknown Gazebo type `{bridge.gazebo.name}`" + Suggestion(suggestion, bridge.gazebo.name))
             if suggestion
             else None
         )
@@ -144,14 +147,13 @@ def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
     if bridge.direction is None or bridge.direction.name in DIRECTIONS:
         return None
     suggestion = nearest(bridge.direction.name, DIRECTIONS, cutoff=0.7)
-    return bridge.direction, f"unknown direction `{bridge.direction.name}`" + (
-        f"; did you mean `{suggestion}`?" if suggestion else ""
+    return bridge.direction, f"unknown direction `{bridge.direction.name}`" + Suggestion(
+        suggestion, bridge.direction.name
     )
 
 
 def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield misspelt topics and wrong directions with their messages."""
-    from urdfkit.errors import suggestion as suggestion_of
     from urdfkit.lint.facts.gazebo.plugins import references
     from urdfkit.lint.facts.gazebo.sensor_topics import published
     from urdfkit.lint.facts.topics.misspelt import COMMON
@@ -180,7 +182,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
             yield (
                 source,
                 bridge.topic,
-                f"the robot has no Gazebo topic `{bridge.topic.name}`; did you mean `{suggestion}`?",
+                f"the robot has no Gazebo topic `{bridge.topic.name}`" + Suggestion(suggestion, bridge.topic.name),
             )
         elif bridge.direction is not None and topic in commands - others and direction in ("GZ_TO_ROS", "IGN_TO_ROS"):
             yield source, bridge.direction, f"`{topic}` is a command topic; bridge it from ROS to Gazebo"
@@ -202,8 +204,8 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
                 and not words.match(pattern)
             ):
                 near = free[0] if len(free) == 1 else None
-                what = suggestion_of(near) if near is not None else f"; its sensors publish {_listed(free)}"
-                yield source, bridge.topic, f"the robot has no Gazebo topic `{bridge.topic.name}`{what}"
+                what = Suggestion(near) if near is not None else f"; its sensors publish {_listed(free)}"
+                yield source, bridge.topic, f"the robot has no Gazebo topic `{bridge.topic.name}`" + what
 
 
 def _type(bridge: Bridged) -> str:

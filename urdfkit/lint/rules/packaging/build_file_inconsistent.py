@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
@@ -112,13 +113,13 @@ class BuildFileInconsistent(RobotRule):
         for command in every:
             near = nearest(command.name, _COMMANDS, cutoff=0.85) if command.name not in (*_COMMANDS, *defined) else None
             if near is not None and is_typo(command.name, near):
-                yield self._at(source, command.start, command.name, f"unknown command; did you mean `{near}`?")
+                yield self._at(source, command.start, command.name, "unknown command" + Suggestion(near))
             if command.name == "find_package" and command.words:
                 words = [word for at, word in enumerate(command.words) if at == 0 or command.words[0][0] == "catkin"]
                 for word, start in words:
                     suggestion = misspelling_of(word, files.dependencies()) if word.islower() else None
                     if suggestion is not None:
-                        yield self._at(source, start, word, f"unknown package `{word}`; did you mean `{suggestion}`?")
+                        yield self._at(source, start, word, f"unknown package `{word}`" + Suggestion(suggestion, word))
             if command.name in ("install", "catkin_install_python"):
                 yield from self._install(files, source, command)
             elif len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
@@ -154,7 +155,7 @@ class BuildFileInconsistent(RobotRule):
             near = nearest(first, _DESTINATIONS, cutoff=0.7) if option == "DESTINATION" and separator else None
             if near is not None and first not in _DESTINATIONS and "$" not in first:
                 yield self._at(
-                    source, start, word, f"unknown folder `{first}` of the installation; did you mean `{near}`?"
+                    source, start, word, f"unknown folder `{first}` of the installation" + Suggestion(near, first)
                 )
         for word, start in command.words[1:]:
             if word in OPTIONS or (misspelt is not None and start == misspelt[1]):
@@ -166,7 +167,7 @@ class BuildFileInconsistent(RobotRule):
 
         if "$" not in word and not files.has(word):
             hint = near_path(files.folder / word)
-            yield self._at(source, start, word, f"`{word}` does not exist in this package{hint}", kind="missing")
+            yield self._at(source, start, word, f"`{word}` does not exist in this package" + hint, kind="missing")
 
     def _setup(self, files: BuildFiles, source: Source) -> Findings:
         name = re.search(r"(?m)^\s*(?:package_name\s*=|name\s*=)\s*[\"']([^\"']+)[\"']", source.text)

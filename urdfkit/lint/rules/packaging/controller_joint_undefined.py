@@ -1,5 +1,6 @@
 """K959 controller-joint-undefined."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -97,7 +98,7 @@ class ControllerJointUndefined(RobotRule):
                 finding = self.at_span(
                     source.span(reference.start, reference.start + len(reference.name)),
                     f"controller joint `{reference.name}` does not exist in robot `{model.robot.name}`"
-                    f"{f'; did you mean `{suggestion}`?' if suggestion else ''}",
+                    + Suggestion(suggestion, reference.name),
                     severity="error" if is_misspelt else self.severity,
                     joint=reference.name,
                 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -78,17 +79,17 @@ class ControllerSettingsMisspelt(RobotRule):
             if not types and "controller" not in text:
                 for level in re.finditer(_LEVEL, text):
                     if level[1] != _PARAMETERS:
-                        message = f"unknown key `{level[1]}`; did you mean `{_PARAMETERS}`?"
+                        message = f"unknown key `{level[1]}`" + Suggestion(_PARAMETERS, level[1])
                         yield self._at(source, level.start(1), level[1], message, severity="error")
                 continue
             for reference in types:
                 suggestion = meant_type(reference.name)
                 if suggestion is not None and not is_exported_plugin(model, reference.name):
-                    message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
+                    message = f"unknown controller type `{reference.name}`" + Suggestion(suggestion, reference.name)
                     yield self._at(source, reference.start, reference.name, message, severity="error")
             for start, name, meant in misspelt_sections(source):
                 is_level = meant == _PARAMETERS
-                message = f"unknown {'key' if is_level else 'controller'} `{name}`; did you mean `{meant}`?"
+                message = f"unknown {'key' if is_level else 'controller'} `{name}`" + Suggestion(meant, name)
                 yield self._at(source, start, name, message, severity="error" if is_level else None)
             yield from self._parameters(source, model)
             yield from self._sections(source)
@@ -133,7 +134,7 @@ class ControllerSettingsMisspelt(RobotRule):
                 written = re.sub(r"::|\.", "/", kind.text)
                 matches = [name for name in TYPES if written == name or name.endswith(f"/{written}")]
                 if matches:
-                    message = f"unknown controller type `{kind.text}`; did you mean `{matches[0]}`?"
+                    message = f"unknown controller type `{kind.text}`" + Suggestion(matches[0], kind.text)
                     yield self.at_span(span_of(source, kind), message, severity="error")
         for key in sections_without_parameters(source):
             message = f"section `{key.text}` has no `{_PARAMETERS}`; ROS 2 rejects the file"
@@ -148,12 +149,14 @@ class ControllerSettingsMisspelt(RobotRule):
         for node, suggestion, description in misspelt_names(source):
             # hardware-interface-lacking compares interfaces with the hardware.
             if suggestion not in INTERFACES or not offered(model):
-                message = f"{description}; did you mean `{suggestion}`?"
+                message = description + Suggestion(suggestion, node.text)
                 severity: Severity = "error" if suggestion in INTERFACES else self.severity
                 yield self.at_span(span_of(source, node), message, severity=severity, names=(node.text,))
 
         for key, suggestion, controller in misspelt(source):
-            message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
+            message = f"unknown parameter `{key.text}` of controller `{controller.name}`" + Suggestion(
+                suggestion, key.text
+            )
             yield self.at_span(span_of(source, key), message)
 
     def _at(

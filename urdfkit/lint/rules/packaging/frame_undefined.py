@@ -89,7 +89,7 @@ class FrameUndefined(RobotRule):
                     continue
                 finding = self.at_span(
                     source.span(*match.span(3)),
-                    f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link{hint}",
+                    f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link" + hint,
                     link=name,
                 )
                 yield from unless_masked(model, name, suggestion, finding)

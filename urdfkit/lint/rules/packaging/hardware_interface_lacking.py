@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -94,7 +95,9 @@ class HardwareInterfaceLacking(RobotRule):
             return
         suggestion = nearest(sensor.text, hardware, cutoff=0.7)
         if suggestion is not None:
-            message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
+            message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`" + Suggestion(
+                suggestion, sensor.text
+            )
             yield self.at_span(span_of(source, sensor), message)
 
     def _missing_interfaces(
@@ -105,7 +108,6 @@ class HardwareInterfaceLacking(RobotRule):
         misspelt: set[str],
         model: Model,
     ) -> Findings:
-        from urdfkit.errors import suggestion
         from urdfkit.lint.facts.control.controller_settings import INTERFACES
         from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
         from urdfkit.lint.facts.control.ros2_controllers import wanted
@@ -141,7 +143,8 @@ class HardwareInterfaceLacking(RobotRule):
                     near = nearest(requirement.interface, interfaces[requirement.is_command], cutoff=0.8)
                 message = (
                     f"controller `{controller.name}` {verb} the {requirement.interface} interface of joint "
-                    f"`{requirement.joint}`, whose hardware provides {provided}{suggestion(near)}"
+                    f"`{requirement.joint}`, whose hardware provides {provided}"
+                    + Suggestion(near, requirement.interface)
                 )
                 help = f'add <{tag} name="{requirement.interface}"/> to the hardware, or change the controller'
                 help = help if near is None else f"write `{near}`"

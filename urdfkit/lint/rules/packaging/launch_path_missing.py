@@ -66,7 +66,7 @@ class LaunchPathMissing(RobotRule):
                     continue
                 yield self.at_span(
                     source.span(reference.start, reference.end),
-                    f"`{reference.path}` does not exist in package `{reference.package}`{hint}",
+                    f"`{reference.path}` does not exist in package `{reference.package}`" + hint,
                     severity="error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity,
                 )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.build_files import BuildFiles
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.model.tags import Tag
@@ -90,7 +91,7 @@ class ManifestInvalid(RobotRule):
                 is_ros2 = files.build_tool.startswith("ament") and "condition" not in tag.attributes
                 suggestion = misspelling_of(text, near, 2 if is_ros2 else 0)
                 if suggestion is not None:
-                    message = f"unknown dependency `{text}`; did you mean `{suggestion}`?"
+                    message = f"unknown dependency `{text}`" + Suggestion(suggestion, text)
                     yield self._at(files, tag, message, "warning")
                 elif tag.name != "buildtool_depend" and not tag.attributes and (other := _other_ros(text, files)):
                     message = f"`{text}` is a package of {other}, but `{files.build_tool}` builds this package"
@@ -136,7 +137,7 @@ class ManifestInvalid(RobotRule):
         text, tag = types[0]
         suggestion = nearest(text, _TYPES, cutoff=0.7) if text not in _TYPES else None
         if suggestion is not None:
-            yield self._at(files, tag, f"unknown build type `{text}`; did you mean `{suggestion}`?")
+            yield self._at(files, tag, f"unknown build type `{text}`" + Suggestion(suggestion, text))
         elif expected and text in _TYPES and text != expected:
             source, kind = ("CMakeLists.txt", "build type") if files.cmake is not None else ("setup.py", "")
             yield self._at(files, tag, f"the build type is `{text}`, but {source} is for `{expected}`", kind=kind)

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, neighbours, package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
@@ -293,7 +294,7 @@ class PackageXmlDependency(RobotRule):
         span = source.span(start, end)
         version = reads_version(source) if source.file.endswith(LAUNCH) else 0
         if (meant := misspelling_of(name, near, version)) is not None:
-            message = f"unknown package `{name}`; did you mean `{meant}`?"
+            message = f"unknown package `{name}`" + Suggestion(meant, name)
             return self.at_span(span, message, severity="error", cause=f"package {name}", kind="misspelt")
         return self.at_span(
             span,

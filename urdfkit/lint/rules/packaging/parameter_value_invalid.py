@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -142,7 +143,10 @@ def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
             yield key, f"duplicate key `{key.text}`; the first is on line {before.line}; only the last value applies"
         is_limit = is_of_moveit and re.fullmatch(r"has_\w+_limits", key.text)  # moveit-setting-invalid reports these
         if value.is_plain and re.fullmatch(_MISSPELT, value.text) and not is_limit:
-            yield value, f"`{value.text}` is a string; did you mean `{'true' if value.text[0] in 'tT' else 'false'}`?"
+            yield (
+                value,
+                f"`{value.text}` is a string" + Suggestion("true" if value.text[0] in "tT" else "false", value.text),
+            )
         joints = node.find("joints") if key.text == "positions" and value.kind == "list" else None
         is_flat = (
             joints is not None and joints.kind == "list" and value.items and all(each.text for each in value.items)

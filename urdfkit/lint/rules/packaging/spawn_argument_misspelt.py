@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launched_nodes import Started
@@ -141,7 +142,7 @@ def _unknown_options(node: Started, version: int) -> Iterator[tuple[int, str, st
         near = nearest(option[1], _SPAWNERS[version], cutoff=0.8)
         if near is not None:
             text = word.name.partition("=")[0]
-            yield word.start, text, f"unknown option `{text}` of `{node.program}`; did you mean `--{near}`?"
+            yield word.start, text, f"unknown option `{text}` of `{node.program}`" + Suggestion(f"--{near}", text)
 
 
 def _is_ignored(node: Started, option: str) -> bool:
@@ -168,13 +169,17 @@ def _invalid_arguments(node: Started, model: Model) -> Iterator[tuple[int, str, 
         if word is not None and option is not None and option[1] not in options:
             suggestion = _SYNONYMS[node.program].get(option[1]) or _nearest_option(option[1], options)
             if suggestion is not None:
-                yield word.start, text, f"unknown option `{text}` of `{node.program}`; did you mean `-{suggestion}`?"
+                yield (
+                    word.start,
+                    text,
+                    f"unknown option `{text}` of `{node.program}`" + Suggestion(f"-{suggestion}", text),
+                )
         elif word is not None and previous in ("topic", "param"):
             name = text.strip("/").rpartition("/")[2]
             near = nearest(name, [_DESCRIPTION], cutoff=0.7)
             if near is not None and name != near and (is_slip(name, near) or _is_only_here(name, model)):
                 kind = "topic" if previous == "topic" else "parameter"
-                yield word.start, text, f"unknown {kind} `{text}`; did you mean `{_DESCRIPTION}`?"
+                yield word.start, text, f"unknown {kind} `{text}`" + Suggestion(_DESCRIPTION, text)
         previous = option[1] if option is not None else ""
 
 
@@ -194,7 +199,7 @@ def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str
             continue
         near = first_slip(word.name, names)
         if near is not None:
-            yield word.start, word.name, f"unknown joint `{word.name}`; did you mean `{near}`?"
+            yield word.start, word.name, f"unknown joint `{word.name}`" + Suggestion(near, word.name)
 
 
 def _without_source(node: Started) -> Iterator[tuple[int, str, str]]:

@@ -78,7 +78,7 @@ class SpawnedControllerUndefined(RobotRule):
                     continue
                 yield self.at_span(
                     source.span(reference.start, reference.start + len(reference.name)),
-                    f"unknown controller `{reference.name}`{hint}",
+                    f"unknown controller `{reference.name}`" + hint,
                 )
 
     def _namespaces(self, source: Source, model: Model) -> Findings:

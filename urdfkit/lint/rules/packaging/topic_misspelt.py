@@ -1,5 +1,6 @@
 """K977 topic-misspelt."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -45,5 +46,5 @@ class TopicMisspelt(RobotRule):
         from urdfkit.lint.facts.topics.misspelt import misspelt_topics
 
         for span, topic, meant in misspelt_topics(model):
-            message = f"no other file names the topic `{topic}`; did you mean `{meant}`?"
+            message = f"no other file names the topic `{topic}`" + Suggestion(meant, topic)
             yield self.at_span(span, message)

@@ -1,8 +1,8 @@
 """T202 child-link-undefined."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.likely_children import meant_child
 from urdfkit.description.urdf.queries import dangling
-from urdfkit.errors import suggestion
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -49,7 +49,7 @@ class ChildLinkUndefined(RobotRule):
             finding = self.at(
                 model,
                 element,
-                f"undefined child link `{name}` of joint `{joint.name}`{suggestion(meant)}",
+                f"undefined child link `{name}` of joint `{joint.name}`" + Suggestion(meant, name),
                 attribute="link",
                 joint=joint.name,
                 fix=new_value(model, element, "link", meant, "unsafe", f"Replace with `{meant}`") if meant else None,

@@ -53,7 +53,7 @@ class ParentLinkUndefined(RobotRule):
             finding = self.at(
                 model,
                 element,
-                f"undefined parent link `{name}` of joint `{joint.name}`{hint}",
+                f"undefined parent link `{name}` of joint `{joint.name}`" + hint,
                 attribute="link",
                 joint=joint.name,
                 names=(name,),

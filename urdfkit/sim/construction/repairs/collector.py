@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from urdfkit.defect_message import DefectMessage, with_effect
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.repair_record import Repair, RepairKind, grouped
 from urdfkit.description.xml.source import Position
-from urdfkit.errors import SimulationError, UrdfkitError, with_effect
-
-_REFUSED = " (refused: strict)"
+from urdfkit.errors import SimulationError, UrdfkitError
 
 DENSITY = 1000.0
 """Default density of links without mass [kg/m³]: water."""
+
+
+class _RefusedError(SimulationError):
+    """A robot that needs a repair is refused; perhaps because of a part inside the part that is left out."""
+
+    def __init__(self, defect: str, position: Position | None, code: str | None) -> None:
+        super().__init__(f"{defect} (refused: strict)", position=position, code=code)
+        self.defect = defect
 
 
 class Repairs:
@@ -43,8 +50,7 @@ class Repairs:
         """
         new = [repair for repair in dict.fromkeys(at_attributes(repairs)) if repair not in self._recorded]
         if self.strict and (refused := next((one for one in new if one.severity == "warning"), None)) is not None:
-            defect = refused.message.partition("; simulated with ")[0]
-            raise SimulationError(f"{defect}{_REFUSED}", position=refused.position, code=refused.code)
+            raise _RefusedError(DefectMessage.of(refused.message).without_effect, refused.position, refused.code)
         self._recorded.update(new)
         self.found += new
         for repair in grouped(new):
@@ -72,6 +78,6 @@ class Repairs:
             SimulationError: robots that need a repair are refused.
         """
         if self.strict:
-            message = error.message.removesuffix(_REFUSED)  # of a part inside this one
-            raise SimulationError(f"{message}{_REFUSED}", position=error.position, code=error.code) from error
+            defect = error.defect if isinstance(error, _RefusedError) else error.message
+            raise _RefusedError(defect, error.position, error.code) from error
         self.add(Repair(kind, error.code or code, with_effect(error.message, effect), error.position or position))

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Link, Problem, Robot
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import with_effect
 from urdfkit.scene import Scene, Shape
 from urdfkit.scene.placeholders import impossible_visuals, shape_problems, unknown_shapes
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import isfinite, pi
 
+from urdfkit.defect_message import DefectMessage, with_effect
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.geometry import rotation_of, rpy_of
 from urdfkit.description.urdf.massless_links import first_of, has_inertia, has_mass, moving_bodies
@@ -121,7 +122,7 @@ def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basi
         amount += f" in {len(inertials)} links that are fixed to each other"
     elif (i := inertials[0].inertia) is not None:
         amount += f" and {i.ixx:.4g}, {i.iyy:.4g}, {i.izz:.4g} kg·m²"
-    message = f"link `{link.name}` {problem}, but {why}; simulated with {amount} ({basis})"
+    message = with_effect(f"link `{link.name}` {problem}, but {why}", f"simulated with {amount} ({basis})")
     repair = repair_at(element, "mass", code, message, link=link.name, joint=None if joint is None else joint.name)
     return replace(repair, attribute=attribute)
 
@@ -137,8 +138,8 @@ def with_causes(repairs: Iterable[Repair], masses: Iterable[Repair]) -> list[Rep
     found = []
     for each in repairs:
         if (estimate := estimates.pop((each.code, each.position), None)) is not None:
-            effect = f"simulated with {estimate.message.partition('; simulated with ')[2]}"
-            each = replace(estimate, message=each.message.replace("the value is ignored", effect))
+            message, effect = DefectMessage.of(each.message), DefectMessage.of(estimate.message).effect
+            each = replace(estimate, message=DefectMessage(message.defect, effect, message.suggestion, message.tail))
         found.append(each)
     return [*found, *estimates.values()]
 

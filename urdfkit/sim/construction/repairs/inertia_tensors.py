@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.repair_record import Repair, RepairKind
 from urdfkit.description.urdf.robot import Inertia, Link
@@ -58,9 +59,9 @@ def possible(link: Link, bodies: AttachedBodies) -> tuple[Link, Repair | None]:
     nearest = nearest_tensor(written)
     change = vector_norm((nearest - written).ravel()) / vector_norm(written.ravel())
     moments = ", ".join(f"{moment:.6g}" for moment in symmetric_eigen(nearest)[0].tolist())
-    message = (
-        f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia, ROUNDING)}; "
-        f"simulated with {moments} kg·m² (changed by {100.0 * change:.3g} %)"
+    message = with_effect(
+        f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia, ROUNDING)}",
+        f"simulated with {moments} kg·m² (changed by {100.0 * change:.3g} %)",
     )
     code = "I502" if a <= ZERO * c else "I503"
     is_note = (code == "I503" and excess < SLIP) or bodies.is_negligible(link)

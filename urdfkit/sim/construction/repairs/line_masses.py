@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Link, Robot
 from urdfkit.kinematics import Kinematics
@@ -71,9 +72,10 @@ def _repair(link: Link) -> Repair:
     assert link.inertial is not None
     assert link.inertial.inertia is not None
     moments = symmetric_eigen(tensor_matrix(link.inertial.inertia))[0].tolist()
-    message = (
-        f"link `{link.name}` has a principal moment of inertia of zero, so nothing resists its rotation about that "
-        f"axis; simulated with {', '.join(f'{moment:.4g}' for moment in moments)} kg·m² (as a rod with a thickness)"
+    message = with_effect(
+        f"link `{link.name}` has a principal moment of inertia of zero, so nothing resists its rotation about "
+        "that axis",
+        f"simulated with {', '.join(f'{moment:.4g}' for moment in moments)} kg·m² (as a rod with a thickness)",
     )
     return repair_at(link.inertial.inertia.element, "inertia", "I502", message, link=link.name)
 

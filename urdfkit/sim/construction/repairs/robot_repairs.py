@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.massless_links import first_massless, massless
 from urdfkit.description.urdf.repair_record import Repair
@@ -70,9 +71,10 @@ def _of_whole_robot(
     link, joint = first_massless(bodies)
     amounts = [f"`{each.name}` {each.inertial.mass:.4g} kg" for each in robot.links if each.inertial is not None]
     more = f" and {len(amounts) - _SHOWN} others" if len(amounts) > _SHOWN else ""
-    message = (
-        f"no link of the robot has a mass, but joints move `{link.name}` and other links; simulated with "
-        f"{', '.join(amounts[:_SHOWN])}{more} (from shapes at {density:g} kg/m³, an estimate for links without shapes)"
+    message = with_effect(
+        f"no link of the robot has a mass, but joints move `{link.name}` and other links",
+        f"simulated with {', '.join(amounts[:_SHOWN])}{more} "
+        f"(from shapes at {density:g} kg/m³, an estimate for links without shapes)",
     )
     name = None if joint is None else joint.name
     return [repair_at(link.element, "mass", "I511", message, link=link.name, joint=name)]

@@ -155,7 +155,7 @@ class ControlLoop:
         """
         if name not in self.configured:
             raise SimulationError(
-                f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.configured)}"
+                f"no controller `{name}` in {self.namespace or '/'}" + did_you_mean(name, self.configured)
             )
         if name in self.controllers:
             return True
@@ -255,6 +255,6 @@ class ControlLoop:
             if name in self.configured:
                 raise SimulationError(f"controller `{name}` is not loaded")
             raise SimulationError(
-                f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.configured)}"
+                f"no controller `{name}` in {self.namespace or '/'}" + did_you_mean(name, self.configured)
             )
         return self.controllers[name]

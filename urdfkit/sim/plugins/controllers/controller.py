@@ -77,7 +77,7 @@ class Hardware:
         elif joint in robot.joint_by_name:
             message = f"joint `{joint}` has no {self.source} with an interface for {interface}"
         else:
-            message = f"no joint `{joint}` in robot `{robot.name}`{did_you_mean(joint, robot.joint_by_name)}"
+            message = f"no joint `{joint}` in robot `{robot.name}`" + did_you_mean(joint, robot.joint_by_name)
             code, place = "K959", None
         raise DescriptionError(message, position=place or entry.position, code=code)
 

@@ -125,4 +125,6 @@ class Controllers:
         names = [status.name for status in self.list()]
         if not names:
             raise SimulationError(f"no controller `{name}`: this robot has none")
-        raise SimulationError(f"no controller `{name}`{did_you_mean(name, names)} (available: {', '.join(names)})")
+        raise SimulationError(
+            f"no controller `{name}`" + did_you_mean(name, names) + f" (available: {', '.join(names)})"
+        )

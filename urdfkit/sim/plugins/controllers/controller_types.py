@@ -1,8 +1,9 @@
 """Registry of the simulated controllers of ros_control and ros2_control by type name."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.control import Settings
 from urdfkit.description.control.controller_types import NOT_SIMULATED, meant_type
-from urdfkit.errors import DescriptionError, suggestion
+from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.controller import Hardware, RosController
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
@@ -46,4 +47,4 @@ def load_ros_controller(name: str, settings: Settings, hardware: Hardware) -> Ro
     if kind in NOT_SIMULATED or (meant := meant_type(kind)) is None:
         return None  # Without the library of another package, Gazebo runs without the controller, too.
     place = settings.group("type").position
-    raise DescriptionError(f"unknown controller type `{kind}`{suggestion(meant)}", position=place, code="K962")
+    raise DescriptionError(f"unknown controller type `{kind}`" + Suggestion(meant), position=place, code="K962")

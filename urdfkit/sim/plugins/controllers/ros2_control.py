@@ -5,6 +5,7 @@ Sources: gz_ros2_control, gz_ros2_control_plugin.cpp and gz_system.cpp; gazebo_r
 
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.control import Settings, node_settings, read_settings
 from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.control.ros2_controllers import configured_controllers, manager_files
@@ -15,7 +16,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position
-from urdfkit.errors import ResourceError, SimulationError, similar, suggestion
+from urdfkit.errors import ResourceError, SimulationError, similar
 from urdfkit.sim.plugins.controllers.command_output import (
     INTERFACES,
     EffortOutput,
@@ -108,9 +109,9 @@ class Ros2Control(ControlLoopPlugin):
                 place = (plugin or parts or block.element).origin.position
                 near = next(iter(similar(name, SIMULATED, cutoff=0.85)), None)
                 hint = simulation_hint(robot)
-                defect = f"hardware `{name}` is not the simulator's{suggestion(near)}"
-                error = SimulationError(f"{defect}{hint}" if setup.repairs.strict else defect, position=place)
-                effect = f"its joints are not controlled{hint}"
+                defect = f"hardware `{name}` is not the simulator's" + Suggestion(near)
+                error = SimulationError(defect + hint if setup.repairs.strict else defect, position=place)
+                effect = "its joints are not controlled" + hint
                 setup.repairs.leave_out(error, effect, "hardware", "C717" if plugin is None else "C709")
                 names = (element.get("name") or "" for element in block.element.find_all("joint"))
                 hardware.left_out.update(dict.fromkeys(names, f"hardware `{name}`"))

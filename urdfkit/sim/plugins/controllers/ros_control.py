@@ -129,7 +129,8 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
     if kind not in SIMULATED_INTERFACES:
         raise SimulationError(
             f"transmission `{name}`: Gazebo has no interface `{interfaces[0]}`"
-            f"{did_you_mean(kind, SIMULATED_INTERFACES)} (it has {', '.join(SIMULATED_INTERFACES)})",
+            + did_you_mean(kind, SIMULATED_INTERFACES)
+            + f" (it has {', '.join(SIMULATED_INTERFACES)})",
             position=place,
             code="C703",
         )

@@ -73,7 +73,7 @@ class LinkSensor(Sensor):
             self.link = read.text("body") or setup.kinematics.root
             if self.link not in (links := setup.kinematics.link_names):
                 raise SimulationError(
-                    f"<{read.tag('body')}> is `{self.link}`, which is not a link{did_you_mean(self.link, links)}",
+                    f"<{read.tag('body')}> is `{self.link}`, which is not a link" + did_you_mean(self.link, links),
                     position=read.place("body"),
                 )
             self._mount = np.eye(4)
@@ -158,7 +158,7 @@ def carrier(setup: Setup) -> str:
         place = next((each.element.origin.position for each in blocks if setup.sensor in each.sensors), place)
     raise SimulationError(
         "a sensor must be in the <gazebo reference=…> of a link; "
-        f"`{setup.link}` is not a link{did_you_mean(setup.link, links)}",
+        f"`{setup.link}` is not a link" + did_you_mean(setup.link, links),
         position=place,
         code="Z801",
     )

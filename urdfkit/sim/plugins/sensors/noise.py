@@ -55,7 +55,7 @@ def noise_of(parent: Element | None, random: np.random.Generator) -> Noise:
     kind = (written.text if written is not None else element.get("type")) or "none"
     if kind not in NOISES:
         raise SimulationError(
-            f"the type of the noise is `{kind}`; it must be {', '.join(NOISES)}{did_you_mean(kind, NOISES)}",
+            f"the type of the noise is `{kind}`; it must be {', '.join(NOISES)}" + did_you_mean(kind, NOISES),
             position=(written or element).origin.position,
             code="Z823",
         )

@@ -79,7 +79,7 @@ class ForwardGroup(Forward):
         interface = self.types[self.type] or self.settings.text("interface_name")
         if interface not in INTERFACES:
             raise DescriptionError(
-                f"unknown interface `{interface}`{did_you_mean(interface, INTERFACES)} "
+                f"unknown interface `{interface}`" + did_you_mean(interface, INTERFACES) + f" "
                 f"(available: {', '.join(INTERFACES)})",
                 position=self.settings.group("interface_name").position,
             )

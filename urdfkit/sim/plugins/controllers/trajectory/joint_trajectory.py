@@ -97,7 +97,7 @@ class TrajectoryFollower(RosController):
         for entry in entries:
             if entry.value not in (*INTERFACES, "acceleration"):
                 raise DescriptionError(
-                    f"unknown interface `{entry.value}`{did_you_mean(entry.value or '', INTERFACES)}",
+                    f"unknown interface `{entry.value}`" + did_you_mean(entry.value or "", INTERFACES),
                     position=entry.position,
                 )
         named = [entry.value for entry in entries]

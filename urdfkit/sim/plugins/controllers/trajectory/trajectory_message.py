@@ -57,7 +57,7 @@ class TrajectoryReader:
         names = list(message.joint_names)
         for name in names:
             if name not in self.names:
-                raise refuse(f"unknown joint `{name}`{did_you_mean(name, self.names)}", INVALID_JOINTS)
+                raise refuse(f"unknown joint `{name}`" + did_you_mean(name, self.names), INVALID_JOINTS)
         missing = [name for name in self.names if name not in names]
         if len(set(names)) != len(names) or (missing and not self.partial):
             raise refuse(f"it must name each joint once; `{(missing or names)[0]}` is not", INVALID_JOINTS)

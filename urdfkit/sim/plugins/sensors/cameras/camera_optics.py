@@ -112,7 +112,9 @@ def _encoding(image: Element | None) -> str:
     name = "R8G8B8" if written is None or not written.text else written.text
     if name not in ENCODINGS:
         raise SimulationError(
-            f"unsupported image format `{name}`{did_you_mean(name, ENCODINGS)} (supported: {', '.join(ENCODINGS)})",
+            f"unsupported image format `{name}`"
+            + did_you_mean(name, ENCODINGS)
+            + f" (supported: {', '.join(ENCODINGS)})",
             position=None if written is None else written.origin.position,
         )
     return ENCODINGS[name]

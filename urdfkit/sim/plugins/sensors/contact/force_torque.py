@@ -100,7 +100,7 @@ class ForceTorque(Sensor):
         joint = robot.joint_by_name.get(name)
         if joint is None or joint.parent is None or joint.child is None:
             raise SimulationError(
-                f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, robot.joint_by_name)}", position=place
+                f"no joint `{name}` in robot `{robot.name}`" + did_you_mean(name, robot.joint_by_name), position=place
             )
         self._parent, self._child = joint.parent, joint.child
 
@@ -232,7 +232,7 @@ class GzForceTorque(ForceTorque):
         text = "" if child is None else child.text
         if child is not None and text and text not in allowed:
             raise SimulationError(
-                f"<{tag}> is `{text}`; it must be {', '.join(allowed)}{did_you_mean(text, allowed)}",
+                f"<{tag}> is `{text}`; it must be {', '.join(allowed)}" + did_you_mean(text, allowed),
                 position=child.origin.position,
             )
         return text or default

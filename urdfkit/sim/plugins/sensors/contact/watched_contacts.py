@@ -139,6 +139,6 @@ def _watched(element: Element, collisions: tuple[Collision, ...], link: str) -> 
         if not means:
             names = [collision.name for collision in sorted(collisions, key=lambda one: one.link != link)]
             hint = did_you_mean(each.text, names) or (f" (it has {', '.join(names[:4])})" if names else "")
-            raise SimulationError(f"the robot has no collision `{each.text}`{hint}", position=each.origin.position)
+            raise SimulationError(f"the robot has no collision `{each.text}`" + hint, position=each.origin.position)
         found.extend(means)
     return tuple(found)

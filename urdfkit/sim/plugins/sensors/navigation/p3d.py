@@ -39,7 +39,7 @@ class P3d(Sensor):
         self._link = read.text("body")
         if self._link not in links:
             raise SimulationError(
-                f"<{read.tag('body')}> is `{self._link}`, which is not a link{did_you_mean(self._link, links)}",
+                f"<{read.tag('body')}> is `{self._link}`, which is not a link" + did_you_mean(self._link, links),
                 position=read.place("body"),
             )
         self._frame = read.text("frame").lstrip("/")
