@@ -17,6 +17,8 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).parents[2]
 RECORDED = ROOT / ".covered_lines"
+SHARED = ROOT.parent / "shared"
+"""Models of the tests, where they lie next to the checkout."""
 KERNEL_LISTS = ("urdfkit/scene/rays/compilation.py", "urdfkit/sim/engine/kernel_cache.py")
 """Modules that list the modules and folders with compiled kernels."""
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -24,23 +26,22 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 MARKS = '''"""Marks of the blocks that the current test has reached."""
 
 import atexit
-import json
 import os
 
 FOLDER = os.environ["COVERED_FOLDER"]
-with open(os.path.join(FOLDER, "blocks.json")) as file:
-    seen = bytearray(len(json.load(file)))
+seen = bytearray(int(os.environ["COVERED_BLOCKS"]))
+reached = os.open(os.path.join(FOLDER, "reached"), os.O_WRONLY | os.O_CREAT | os.O_APPEND)  # before any confinement
 
 
 def write(test, seconds=None):
     """Append the blocks that were reached since the last call; without a time for a program that a test started."""
+    import json  # here, because tests assert that a program does not load it
+
     found = [number for number, mark in enumerate(seen) if mark]
     for number in found:
         seen[number] = 0
     line = json.dumps([test, seconds, found]) + "\\n"
-    file = os.open(os.path.join(FOLDER, "reached"), os.O_WRONLY | os.O_CREAT | os.O_APPEND)
-    os.write(file, line.encode())
-    os.close(file)
+    os.write(reached, line.encode())
 
 
 if "COVERED_PROCESS" not in os.environ:
@@ -144,11 +145,13 @@ def _may_leave(statement: ast.stmt) -> bool:
 
 @contextmanager
 def copied() -> Iterator[Path]:
-    """Copy the checkout, with the compiled kernels."""
+    """Copy the checkout, with the compiled kernels; the shared models next to it stay where they are."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "checkout"
         left_out = shutil.ignore_patterns(".venv", ".git", ".*_cache", RECORDED.name, "node_modules")
         shutil.copytree(ROOT, copy, symlinks=True, ignore=left_out)
+        if SHARED.is_dir():
+            (Path(folder) / SHARED.name).symlink_to(SHARED)
         yield copy
 
 
@@ -167,10 +170,9 @@ def record(arguments: list[str]) -> int:
             (copy / file).write_text(ast.unparse(ast.fix_missing_locations(tree)))
         (copy / "marks.py").write_text(MARKS)
         (copy / "marks_plugin.py").write_text(PLUGIN)
-        (Path(folder) / "blocks.json").write_text(json.dumps(table))
-        environment = os.environ | {"PYTHONPATH": str(copy), "COVERED_FOLDER": folder}
+        own = {"PYTHONPATH": str(copy), "COVERED_FOLDER": folder, "COVERED_BLOCKS": str(len(table))}
         command = [sys.executable, "-m", "pytest", "-p", "marks_plugin", "-p", "no:cacheprovider", "-q", *arguments]
-        status = subprocess.run(command, cwd=copy, env=environment, check=False).returncode
+        status = subprocess.run(command, cwd=copy, env=os.environ | own, check=False).returncode
         reached: dict[str, set[int]] = defaultdict(set)
         shared: dict[str, set[int]] = defaultdict(set)
         seconds: dict[str, float] = {}
