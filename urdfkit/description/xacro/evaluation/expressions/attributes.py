@@ -142,7 +142,7 @@ class Attributes:
         elif name == "join" and args:
             items = list(self._budget.each(args[0]))
             check_characters(sum(len(x) for x in items if isinstance(x, str)) + len(owner) * len(items))
-            return (items,)
+            return (items, *args[1:])
         elif name == "translate" and args and isinstance(args[0], dict):
             longest = max((len(x) for x in args[0].values() if isinstance(x, str)), default=1)
             check_characters(len(owner) * longest)
