@@ -101,12 +101,12 @@ class HardwareInterfaceUnknown(RobotRule):
         simulator = "the default hardware of gazebo_ros_control" if has_default_hardware(model.robot) else "urdfkit"
         effect = f"{simulator} does not simulate it"
         if len(transmission.joints) != 1:
-            message = f"transmission `{transmission.name}` has {len(transmission.joints)} joints; {effect}"
+            message = f"transmission `{transmission.name or ''}` has {len(transmission.joints)} joints; {effect}"
             yield self.at(model, transmission.element, message, attribute="name", severity="note")
             return
         interface = transmission.joints[0].element.find("hardwareInterface")
         if interface is None or interface in misspelt or not interface.text or "$" in interface.text:
             return
         if interface.text.removeprefix(f"{PACKAGE}/") not in SIMULATED_INTERFACES:
-            message = f"transmission `{transmission.name}` has the interface `{interface.text}`; {effect}"
+            message = f"transmission `{transmission.name or ''}` has the interface `{interface.text}`; {effect}"
             yield self.at(model, interface, message, severity="note")

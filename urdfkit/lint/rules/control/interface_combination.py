@@ -68,8 +68,9 @@ class InterfaceCombination(RobotRule):
                     for element in joint.find_all(kind):
                         name = element.get("name") or ""
                         suggestion = meant_interface(name)
-                        if name in seen:
-                            message = f"duplicate {kind.replace('_', ' ')} `{name}` of joint `{joint.get('name')}`"
+                        if name and name in seen:
+                            owner = f" of joint `{joint.get('name')}`" if joint.get("name") else ""
+                            message = f"duplicate {kind.replace('_', ' ')} `{name}`{owner}"
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
                         elif suggestion is not None:
                             message = f"unknown interface `{name}`" + Suggestion(suggestion, name)

@@ -58,7 +58,8 @@ class OldTransmissionSyntax(RobotRule):
                 yield self.at(
                     model,
                     transmission.element,
-                    f"transmission `{transmission.name}` uses an obsolete syntax: ros_control reads <type>, not type=",
+                    f"transmission `{transmission.name or ''}` uses an obsolete syntax: "
+                    "ros_control reads <type>, not type=",
                     attribute="type",
                     help="replace the attribute with <type>transmission_interface/SimpleTransmission</type>",
                 )

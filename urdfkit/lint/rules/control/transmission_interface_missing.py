@@ -73,7 +73,8 @@ class TransmissionInterfaceMissing(RobotRule):
                     yield self.at(
                         model,
                         part.element,
-                        f"transmission `{transmission.name}` has no hardware interface for joint `{part.name}`",
+                        f"transmission `{transmission.name or ''}` has no hardware interface "
+                        f"for joint `{part.name or ''}`",
                         attribute="name",
                         joint=part.name,
                         help="add <hardwareInterface>hardware_interface/…JointInterface</hardwareInterface>",

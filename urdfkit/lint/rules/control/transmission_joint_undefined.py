@@ -73,7 +73,7 @@ class TransmissionJointUndefined(RobotRule):
                         yield self.at(
                             model,
                             part.element,
-                            f"transmission `{transmission.name}` names the {kind} joint `{part.name}`",
+                            f"transmission `{transmission.name or ''}` names the {kind} joint `{part.name or ''}`",
                             attribute="name",
                             joint=part.name,
                             help="remove the transmission, or correct the type of the joint",
@@ -86,7 +86,7 @@ class TransmissionJointUndefined(RobotRule):
                 finding = self.at(
                     model,
                     part.element,
-                    f"transmission `{transmission.name}` names the undefined joint `{part.name}`" + hint,
+                    f"transmission `{transmission.name or ''}` names the undefined joint `{part.name or ''}`" + hint,
                     attribute="name",
                     joint=part.name,
                     names=(near,) if near else (),
