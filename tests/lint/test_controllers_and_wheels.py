@@ -6,19 +6,27 @@ import pytest
 
 from urdfkit.lint import lint
 
-WHEEL = """<link name="{side}"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
-<joint name="{side}_joint" type="continuous"><parent link="base"/><child link="{side}"/>
+WHEEL = """<link name="{name}"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+<joint name="{name}_joint" type="continuous"><parent link="base"/><child link="{name}"/>
 <origin xyz="{xyz}"/><axis xyz="{axis}"/></joint>
 """
 MANIFEST = "<package format='3'><name>cart</name><version>1.0.0</version></package>"
 
 
-def found(write, settings: str, left: str = "0 0.2 0", right: str = "0 -0.2 0", axis: str = "0 1 0") -> list[str]:
+def found(
+    write, settings: str, left: str = "0 0.2 0", right: str = "0 -0.2 0", axis: str = "0 1 0", more: int = 0
+) -> list[str]:
+    """Return the messages about a cart with these wheels, and with more wheels behind them."""
     write("cart/package.xml", MANIFEST)
-    wheels = [WHEEL.format(side=side, xyz=xyz, axis=axis) for side, xyz in (("left", left), ("right", right))]
+    places = {"left": left, "right": right}
+    for number in range(1, more + 1):
+        places |= {f"{side}_{number}": f"-{number} {xyz.partition(' ')[2]}" for side, xyz in list(places.items())[:2]}
+    wheels = [WHEEL.format(name=name, xyz=xyz, axis=axis) for name, xyz in places.items()]
     model = write("cart/urdf/cart.urdf", '<link name="base"/>' + "".join(wheels))
     parameters = {"type": "diff_drive_controller/DiffDriveController"}
-    parameters |= {"left_wheel_names": "[left_joint]", "right_wheel_names": "[right_joint]"}
+    for side in ("left", "right"):
+        names = [f"{name}_joint" for name in places if name.startswith(side)]
+        parameters[f"{side}_wheel_names"] = f"[{', '.join(names)}]"
     lines = [f"    {key}: {value}\n" for key, value in parameters.items()]
     lines += [f"    {line}\n" for line in settings.split("; ") if line]
     write("cart/config/drive.yaml", ("drive:\n  ros__parameters:\n" + "".join(lines)).encode())
@@ -68,3 +76,14 @@ def test_a_left_wheel_on_the_right_side(left: str, right: str, axis: str, is_swa
 def test_two_wheels_at_the_same_place(write) -> None:
     (message,) = found(write, "wheel_radius: 0.1", "0 0.2 0", "0 0.2 0")
     assert message == "wheels `left_joint` and `right_joint` are at the same place, 0 0.2 0 m"
+
+
+@pytest.mark.parametrize(
+    ("more", "separation", "is_reported"),
+    [(0, 0.5, True), (1, 0.5, False), (1, 0.79, False), (1, 0.81, True), (2, 0.79, False), (2, 0.81, True)],
+)
+def test_robots_that_skid_may_have_twice_the_separation(more: int, separation: float, is_reported: bool, write) -> None:
+    messages = found(write, f"wheel_separation: {separation}", more=more)
+    assert [message.partition(",")[0] for message in messages] == [
+        f"`wheel_separation` is {separation} m"
+    ] * is_reported

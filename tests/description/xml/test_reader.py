@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from urdfkit.description.xacro.evaluation.tree import element_of
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.expand import expand, expand_leniently
-from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.reader import MAX_BYTES, document_of, read_source
+from urdfkit.description.xml.element import MAX_DEPTH, Element
+from urdfkit.description.xml.reader import MAX_ATTRIBUTES, MAX_BYTES, MAX_VALUE, document_of, read_source
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import element_span, start_tag
 from urdfkit.errors import ResourceError, UrdfkitError, XmlError
@@ -172,3 +172,27 @@ def test_any_text_is_read_or_refused(text: str) -> None:
     if refused is not None:
         assert refused.position is not None
         assert "\n" not in str(refused)
+
+
+@pytest.mark.parametrize("name", ["r.urdf", "r.xacro"])
+@pytest.mark.parametrize(
+    ("text", "most"),
+    [
+        (lambda n: f"<robot name='r'>{'<a>' * (n - 1)}{'</a>' * (n - 1)}</robot>", MAX_DEPTH),
+        (lambda n: f"<robot name='{'x' * n}'/>", MAX_VALUE),
+        (
+            lambda n: f"<robot {' '.join(f'a{i}={chr(34) * 2}' for i in range(n))}/><!--{'x' * MAX_VALUE}-->",
+            MAX_ATTRIBUTES,
+        ),
+    ],
+    ids=["depth", "value", "attributes"],
+)
+def test_the_largest_file_is_read_and_a_larger_one_refused(
+    text: Callable[[int], str], most: int, name: str, tmp_path: Path
+) -> None:
+    path = tmp_path / name
+    path.write_text(text(most))
+    expand(path)
+    path.write_text(text(most + 1))
+    with pytest.raises(XmlError, match=str(most)):
+        expand(path)

@@ -102,6 +102,8 @@ def test_the_nearest_place_that_is_free():
 def test_what_looks_about_goes_as_far_as_it_can():
     there = ((-0.05, -0.05, 0.1), (0.05, 0.05, 0.2))
     assert free_place([BASE], [there], Part((CUBE,), CUBE, far_from_others=True)) == (0.15, 0.0, 0.15)
+    tower = ((-0.2, -0.15, 0.1), (-0.1, 0.15, 0.5))  # on top, the other part is not in sight
+    assert free_place([BASE, tower], [there], Part((CUBE,), CUBE, far_from_others=True)) == (0.15, 0.0, 0.15)
 
 
 def test_at_the_front_beside_the_other_and_then_below():

@@ -120,7 +120,7 @@ def _covered(document: Document, start: int, end: int) -> tuple[int, int]:
     source = document.source
     line = source.position(start).line
     before = source.text[source.line_starts[line - 1] : start]
-    last = source.position(end - 1).line
+    last = source.position(end).line
     after = source.line(last)[end - source.line_starts[last - 1] :]
     if before.strip() or after.strip():
         return line, last
