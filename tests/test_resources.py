@@ -4,7 +4,8 @@ import pytest
 
 from urdfkit import resources
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.resources import find_model, models_in, robot_names, robots_dir, templates_dir
+from urdfkit.resources import find_model, robot_names, robots_dir, templates_dir
+from urdfkit.robot_files import models_in
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 

@@ -1,41 +1,27 @@
-"""Find templates and bundled robots, and resolve a robot argument to a file.
-
-This module does not parse XML: the first tag distinguishes a robot from a file of macros.
-"""
+"""Find templates and bundled robots, and resolve a robot argument to a file."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.errors import ResourceError, UsageError, did_you_mean
+from urdfkit.errors import ResourceError, UsageError, did_you_mean, nearest
 from urdfkit.record import record
+from urdfkit.robot_files import MODEL_SUFFIXES, children, models_in, robot_name, stem
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.robot_descriptions_cache import CachedDescription
 
-MODEL_SUFFIXES = (".urdf", ".xacro")
-"""Suffixes of model files."""
-
 _WORLD_SUFFIXES = (".sdf", ".world")
-_SKIPPED_FOLDERS = {"build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"}
-_IGNORE_MARKS = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
 _WORKSPACE_MARKS = (".git", ".catkin_workspace", ".catkin_tools", "src", ".colcon")
-_MAX_DEPTH = 6
 _LISTED = 8
 
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_ROOT = re.compile(r"""<robot\b((?:"[^"]*"|'[^']*'|[^>"'])*)>""")
-_NAME = re.compile(r"""(?<![\w:])name\s*=\s*(?:"([^"]*)"|'([^']*)')""")
-# A file of colours or properties is not a robot, whatever its name: a robot has a link, or an element that may add one.
-_SUBSTANCE = re.compile(r"<link\b|<xacro:(?!macro\b|property\b|arg\b)")
 _URI = re.compile(r"([a-z][a-z0-9+.-]*)://")
 _DESCRIPTION = re.compile(r"[a-z]\w*_description")
-_INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
 
 
 @record
@@ -88,7 +74,7 @@ def _shipped_robots() -> dict[str, Path]:
     """Return name → folder of every robot, and name → file of every further model in such a folder."""
     home = robots_dir()
     folders = {path.name: path for path in home.iterdir() if path.is_dir() and not path.name.startswith(".")}
-    variants = {_stem(path): path for path in home.glob("*/*_description/urdf/*.urdf.xacro")}
+    variants = {stem(path): path for path in home.glob("*/*_description/urdf/*.urdf.xacro")}
     return variants | folders
 
 
@@ -98,7 +84,7 @@ def _shipped_model(name: str) -> Path:
     if path.is_file():
         return path
     entries = models_in(path)
-    own = [entry for entry in entries if _stem(entry) == name]
+    own = [entry for entry in entries if stem(entry) == name]
     return own[0] if own else _the_one(entries, f"robot `{name}`")
 
 
@@ -132,7 +118,7 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
         own = {**described.arguments, **arguments}
         return ModelArgument(described.path, own, (*folders, *described.packages), models[0])
     path = _find(models[0]) if models else _find_here(Path.cwd())
-    return ModelArgument(path, arguments, folders, _robot_name(path) or _stem(path))
+    return ModelArgument(path, arguments, folders, robot_name(path) or stem(path))
 
 
 def _cached_description(word: str) -> CachedDescription | None:
@@ -185,7 +171,7 @@ def _find(word: str) -> Path:
         raise ResourceError(f"{word} is neither a file nor a folder")
     if _looks_like_a_path(word):
         raise ResourceError(f"no such file or folder: {word}{_near(path)}")
-    here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix.lower() in MODEL_SUFFIXES]
+    here = [p.name for p in children(Path.cwd()) if p.is_dir() or p.suffix.lower() in MODEL_SUFFIXES]
     names = robot_names()
     hint = did_you_mean(word, [*names, *here])
     if not hint:
@@ -222,10 +208,8 @@ def _near(path: Path) -> str:
     missing, parent = path, path.parent
     while not parent.is_dir() and parent != parent.parent:
         missing, parent = parent, parent.parent
-    hint = did_you_mean(missing.name, [child.name for child in _children(parent)])
-    if not hint or str(parent) == ".":
-        return hint
-    return hint.replace("`", f"`{parent}/".replace("//", "/"), 1)
+    near = nearest(missing.name, [child.name for child in children(parent)])
+    return Suggestion(near and str(parent / near), missing.name)
 
 
 def _find_here(start: Path) -> Path:
@@ -246,35 +230,6 @@ def _is_package_or_workspace(folder: Path) -> bool:
     return any((folder / mark).exists() for mark in ("package.xml", *_WORKSPACE_MARKS))
 
 
-def models_in(folder: Path) -> list[Path]:
-    """Return the model files of a package, of a folder of packages, or of a bare folder.
-
-    A model is a file whose root is ``<robot name=…>``, which has links or includes, and which no other file includes.
-    A ``.urdf`` generated from a ``.xacro`` in the same folder is skipped.
-
-    Args:
-        folder: the folder to search.
-
-    Raises:
-        ResourceError: a file cannot be read.
-    """
-    texts: dict[Path, str] = {}
-    for path in _walk(folder, 0):
-        if path.suffix.lower() in MODEL_SUFFIXES or path.suffix == ".gazebo":
-            texts[path] = _text(path)
-    included = {name for text in texts.values() for name in _INCLUDED.findall(text)}
-    roots = {path: _ROOT.search(text) for path, text in texts.items() if path.suffix.lower() in MODEL_SUFFIXES}
-    candidates = [
-        path
-        for path, root in roots.items()
-        if root and path.name not in included and _SUBSTANCE.search(texts[path], root.end())
-    ]
-    named = [path for path in candidates if _NAME.search(roots[path][1])]  # type: ignore[index]
-    chosen = named or candidates
-    sources = {(path.parent, _stem(path)) for path in chosen if path.suffix.lower() == ".xacro"}
-    return sorted(p.resolve() for p in chosen if p.suffix.lower() == ".xacro" or (p.parent, _stem(p)) not in sources)
-
-
 def _the_one(entries: list[Path], where: str) -> Path:
     if not entries:
         raise ResourceError(f"no robot description (.urdf or .xacro with <robot name=…>) in {where}")
@@ -288,44 +243,3 @@ def _the_one(entries: list[Path], where: str) -> Path:
 def _shortest(path: Path) -> str:
     relative = os.path.relpath(path)
     return relative if len(relative) < len(str(path)) else str(path)
-
-
-def _walk(folder: Path, depth: int) -> Iterator[Path]:
-    children = _children(folder)
-    if any(child.name in _IGNORE_MARKS for child in children):
-        return
-    for child in children:
-        if child.is_file():
-            yield child
-        elif depth < _MAX_DEPTH and _is_worth_a_look(child):
-            yield from _walk(child, depth + 1)
-
-
-def _is_worth_a_look(folder: Path) -> bool:
-    skipped = folder.name in _SKIPPED_FOLDERS or folder.name.startswith((".", "_"))
-    return not skipped and folder.is_dir() and not folder.is_symlink()
-
-
-def _children(folder: Path) -> list[Path]:
-    try:
-        return sorted(folder.iterdir())
-    except OSError:
-        return []
-
-
-def _text(path: Path) -> str:
-    try:
-        return _COMMENT.sub("", path.read_text(encoding="utf-8", errors="replace"))
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
-
-
-def _robot_name(path: Path) -> str | None:
-    root = _ROOT.search(_text(path))
-    written = _NAME.search(root[1]) if root else None
-    name = (written[1] or written[2] or "") if written else ""
-    return name if name and "$" not in name else None
-
-
-def _stem(path: Path) -> str:
-    return re.sub(r"(\.urdf)?(\.xacro)?$", "", path.name, count=1, flags=re.IGNORECASE)

@@ -114,7 +114,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _file(word: str) -> Path:
     path = Path(word).expanduser()
     if path.is_dir():
-        from urdfkit.resources import models_in
+        from urdfkit.robot_files import models_in
 
         models = models_in(path)
         if len(models) != 1:

@@ -52,6 +52,7 @@ def refuse(word: str, commands: Sequence[str], following: Sequence[str] = ()) ->
 
 
 def _is_robot(word: str) -> bool:
-    from urdfkit.resources import MODEL_SUFFIXES, robot_names
+    from urdfkit.resources import robot_names
+    from urdfkit.robot_files import MODEL_SUFFIXES
 
     return word.endswith(MODEL_SUFFIXES) or word in robot_names()

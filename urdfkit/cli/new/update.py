@@ -153,7 +153,7 @@ def findings(folder: Path, *, package_path: Path | None = None) -> list[PackageF
     """
     from urdfkit.description.sdf import load_world
     from urdfkit.lint import lint
-    from urdfkit.resources import models_in
+    from urdfkit.robot_files import models_in
 
     for world in (*folder.glob("*.sdf"), *folder.glob("*.world")):
         load_world(world)
@@ -177,7 +177,7 @@ def add_picture(folder: Path) -> None:
         UrdfkitError: the robot cannot be loaded or drawn.
     """
     from urdfkit.description import load
-    from urdfkit.resources import models_in
+    from urdfkit.robot_files import models_in
     from urdfkit.scaffold.wrap.readme_picture import drawing_of
 
     for model in models_in(folder):
