@@ -330,7 +330,7 @@ def test_two_nodes_of_one_name_in_python(source, second, is_reported):
     first = NODE.format('"view", condition=IfCondition(gui)')
     text = f"def generate_launch_description():\n    return LaunchDescription([{first}, {second}])\n"
     write(package / "launch/two.launch.py", text)
-    assert any("has the name `view` too" in each for each in findings(source)) is is_reported
+    assert any("also has the name `view`" in each for each in findings(source)) is is_reported
 
 
 def test_the_paths_of_the_setup_assistant_exist_unless_the_builder_replaces_them(source):
