@@ -75,7 +75,7 @@ def test_pictures_of_every_encoding(tmp_path: Path, encoding: str) -> None:
 
 @pytest.mark.parametrize("millimetres", [True, False])
 def test_depths_are_millimetres(tmp_path: Path, millimetres: bool) -> None:
-    depth = np.array([[0.5, np.nan, 1.2344], [np.inf, 65.0, 70.0]], dtype=np.float32)
+    depth = np.array([[0.5, np.nan, 1.2344], [np.inf, 65.0, 65.6]], dtype=np.float32)
     found = opened(tmp_path, depth_image(0.0, "eye", depth, millimetres=millimetres))
     assert found.tolist() == [[500, 0, 1234], [0, 65000, 0]]
 

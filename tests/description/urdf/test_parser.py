@@ -108,6 +108,29 @@ def test_every_element_and_attribute() -> None:
     assert (robot.ros2_control[0].name, robot.ros2_control[0].type) == ("r", "system")
 
 
+def test_the_defaults_of_optional_elements_and_attributes() -> None:
+    inside = '<origin/><limit effort="1" velocity="2"/><dynamics/><mimic joint="k"/><safety_controller k_velocity="1"/>'
+    (found,) = joint(inside).joints
+    assert (found.origin, found.axis) == (Pose((0, 0, 0), (0, 0, 0)), (1, 0, 0))
+    assert found.dynamics is not None
+    assert (found.dynamics.damping, found.dynamics.friction) == (0, 0)
+    assert found.mimic is not None
+    assert (found.mimic.multiplier, found.mimic.offset) == (1, 0)
+    safety = found.safety_controller
+    assert safety is not None
+    assert (safety.soft_lower_limit, safety.soft_upper_limit, safety.k_position) == (0, 0, 0)
+    mesh = (
+        '<robot name="r"><link name="a"><visual><geometry><mesh filename="m.stl"/></geometry></visual></link></robot>'
+    )
+    assert read(mesh).links[0].visuals[0].geometry == Mesh("m.stl", (1, 1, 1))
+
+
+@pytest.mark.parametrize(("version", "problems"), [("1.0", ["version"]), ("1.1", []), ("1.2", [])])
+def test_capsules_belong_to_urdf_since_1_1(version: str, problems: list[str]) -> None:
+    robot = read(EVERYTHING.replace('name="all"', f'name="all" version="{version}"'))
+    assert [problem.kind for problem in robot.problems] == problems
+
+
 def test_defaults_of_urdf() -> None:
     robot = joint('<limit effort="1" velocity="1"/><dynamics/><mimic joint="j"/>')
     j = robot.joints[0]

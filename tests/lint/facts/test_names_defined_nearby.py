@@ -129,6 +129,7 @@ CALLS = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
         ("${tool}", False),
         ("${tool}bo", False),
         ("${tool}wrist", True),
+        ("a${{1:2}[1]}", False),
     ],
 )
 def test_of_names_that_macros_make_those_count_that_their_calls_give(workspace, other, is_found):
