@@ -53,6 +53,9 @@ _ROS_TYPES = {
 }
 """Kind of a plugin of Gazebo Classic → ROS type of its messages."""
 
+_OF_MEANINGS = {"cloud_topic": "PointCloud2"}
+"""Meaning of a parameter in ROS 1 → ROS type of the messages."""
+
 
 @record(eq=False)
 class Published:
@@ -64,6 +67,7 @@ class Published:
         key: identity of the sensor; duplicates of one sensor have the same key and are reported separately.
         element: the element that names the topic; the plugin or sensor for a default topic.
         type: type of the message without its package, in Gazebo for gz sim, else in ROS; empty if unknown.
+        is_ros: whether the topic is in ROS; gz sim needs a bridge.
     """
 
     topic: str
@@ -71,6 +75,7 @@ class Published:
     key: tuple[str, str]
     element: Element
     type: str = ""
+    is_ros: bool = True
 
 
 def published(model: Model) -> Iterator[Published]:
@@ -84,10 +89,12 @@ def published(model: Model) -> Iterator[Published]:
             continue
         name = (sensor.name if sensor is not None else None) or plugin.name or ""
         key = (block.reference or "", name)
-        found = _of_ros_1(plugin, spec) if spec.generation == "ros1" else _of_ros_2(plugin, spec, sensor)
-        for topic, element in found:
+        is_ros1 = spec.generation == "ros1"
+        found = _of_ros_1(plugin, spec) if is_ros1 else (("", *each) for each in _of_ros_2(plugin, spec, sensor))
+        for meaning, topic, element in found:
             if not model.is_unresolved(element) and "$" not in topic:
-                yield Published(topic, name, key, element, _ROS_TYPES.get(spec.kind, ""))
+                kind = _ROS_TYPES.get(spec.kind) or _OF_MEANINGS.get(meaning, "")
+                yield Published(topic, name, key, element, kind)
     for block in model.robot.gazebo:
         for sensor in block.sensors:
             written = sensor.element.find("topic")
@@ -97,7 +104,7 @@ def published(model: Model) -> Iterator[Published]:
                 topic = f"/{written.text.strip('/')}{behind}"
                 kind = "PointCloudPacked" if behind == "/points" else _TYPES.get((sensor.type or "").strip(), "")
                 key = (block.reference or "", sensor.name or "")
-                yield Published(topic, sensor.name or "", key, written, kind)
+                yield Published(topic, sensor.name or "", key, written, kind, False)
 
 
 def depth_clouds(model: Model) -> Iterator[str]:
@@ -110,7 +117,8 @@ def depth_clouds(model: Model) -> Iterator[str]:
                     yield topic.strip("/").removesuffix("image_raw") + "points"
 
 
-def _of_ros_1(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[str, Element]]:
+def _of_ros_1(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[str, str, Element]]:
+    """Yield meaning of the parameter, topic and element."""
     from urdfkit.description.plugins import read
 
     texts = read(plugin, spec)
@@ -118,7 +126,7 @@ def _of_ros_1(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[str, Element]]
         parameter = spec.by_meaning(meaning)
         if parameter is not None and meaning in texts:
             below = (texts.get("namespace", ""), texts.get("camera", ""))
-            yield _absolute(texts[meaning], *below), plugin.element.find(parameter.tag) or plugin.element
+            yield meaning, _absolute(texts[meaning], *below), plugin.element.find(parameter.tag) or plugin.element
 
 
 def _of_ros_2(plugin: Plugin, spec: PluginSpec, sensor: SensorTag | None) -> Iterator[tuple[str, Element]]:

@@ -1,4 +1,4 @@
-"""Nodes of ROS 2 that launch files start, with their names, parameter files and remappings."""
+"""Nodes that launch files start, with their names, parameter files and remappings."""
 
 from __future__ import annotations
 
@@ -36,8 +36,9 @@ class LaunchedNode:
         has_name: whether the launch file names it.
         files: package and path of the parameter files that it loads.
         remappings: old and new name of each remapping with constant names.
-        place: first and last offset of its executable in a Python launch file.
+        place: first and last offset of its executable.
         inline: names of its parameters outside of files; None if there can be others.
+        has_more_remappings: whether there can be more remappings, with computed names.
     """
 
     source: Source
@@ -49,6 +50,7 @@ class LaunchedNode:
     remappings: tuple[tuple[Named, Named], ...]
     place: tuple[int, int] | None = None
     inline: frozenset[str] | None = None
+    has_more_remappings: bool = False
 
 
 def launched_nodes(model: Model) -> list[LaunchedNode]:
@@ -106,7 +108,7 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> La
         name is not None,
         tuple(file for file in files if file[0]),
         tuple(remappings),
-        None,
+        (program.start, program.start + len(program.name)) if program is not None else None,
         frozenset(inner) if all(file[0] for file in files) else None,
     )
 
@@ -129,6 +131,7 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
             if isinstance(listed, ast.Name):
                 listed = reader.assigned.get(listed.id)
             items = listed.elts if isinstance(listed, (ast.List, ast.Tuple)) else []
+            remappings = tuple(_remappings(source, values.get("remappings"), reader, binding))
             files = [_file(resolved(item, binding), reader, defaults) for item in items]
             yield LaunchedNode(
                 source,
@@ -137,9 +140,10 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 _literal(source, name, reader) if name is not None else None,
                 "name" in words,
                 tuple(file for file in files if file is not None),
-                tuple(_remappings(source, values.get("remappings"), reader, binding)),
+                remappings,
                 place(source, words["executable"]) if "executable" in words else None,
                 _inline(call, items, binding, reader, files),
+                any(word.arg is None for word in call.keywords) or _has_more(values.get("remappings"), len(remappings)),
             )
 
 
@@ -203,6 +207,11 @@ def _literal(source: Source, node: ast.expr, reader: LaunchReader) -> Named | No
     start, end = place(source, node)
     offset = source.text[start:end].find(node.value)
     return Named(node.value, start + offset) if offset >= 0 else None
+
+
+def _has_more(node: ast.expr | None, count: int) -> bool:
+    """Return whether a value of ``remappings`` can have more pairs than those with constant names."""
+    return node is not None and not (isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == count)
 
 
 def _remappings(

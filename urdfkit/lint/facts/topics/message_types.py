@@ -10,33 +10,18 @@ from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source, Span
-from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, span_of, yamls
 from urdfkit.lint.facts.gazebo.sensor_topics import published
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.names import name_of_node
-from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.nodes.started import launched_nodes
+from urdfkit.lint.facts.topics.graph import published_by_type, remapped
 from urdfkit.lint.facts.topics.misspelt import mentions
 from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-_OF_CONTROLLERS = {
-    "diff_drive_controller/DiffDriveController": ("odom", "Odometry"),
-    "tricycle_controller/TricycleController": ("odom", "Odometry"),
-    "imu_sensor_broadcaster/IMUSensorBroadcaster": ("imu", "Imu"),
-    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": ("wrench", "WrenchStamped"),
-}
-"""Type of a controller → its topic and the type of its messages."""
-
-_OF_NODES = {
-    "ekf_node": (("odometry/filtered", "Odometry"),),
-    "ukf_node": (("odometry/filtered", "Odometry"),),
-    "navsat_transform_node": (("odometry/gps", "Odometry"), ("gps/filtered", "NavSatFix")),
-}
-"""Program of robot_localization → its topics and the types of their messages."""
 
 _FLAG = "enable_stamped_cmd_vel"
 _COMMANDS = {
@@ -63,6 +48,7 @@ def mistyped(model: Model) -> Iterator[tuple[Span, str]]:
     read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
     types = _types(model) if read else {}
     unbridged = _unbridged(model) if read else {}
+    seen = set[str]()
     for mention in read:
         start, name = mention.topic.start, mention.topic.name
         found = types.get(name.strip("/"), set())
@@ -70,7 +56,8 @@ def mistyped(model: Model) -> Iterator[tuple[Span, str]]:
         if found and mention.type not in found and mention.type in _DATA_TYPES:
             what = " and ".join(sorted(found))
             yield span, f"this parameter reads {mention.type} messages, but `{name}` has {what} messages"
-        elif not found and (other := unbridged.get(name.strip("/"))):
+        elif not found and name.strip("/") not in seen and (other := unbridged.get(name.strip("/"))):
+            seen.add(name.strip("/"))
             yield span, f"`{name}` is a topic of Gazebo; the bridge publishes its messages on `{other}`"
 
 
@@ -91,27 +78,10 @@ def _unbridged(model: Model) -> dict[str, str]:
 def _types(model: Model) -> dict[str, set[str]]:
     """Return topic without slashes at its ends → types of its messages without their packages."""
     found: dict[str, set[str]] = {}
-    for publication in published(model):
-        if publication.type in ("LaserScan", "Imu"):
-            found.setdefault(publication.topic.strip("/"), set()).add(publication.type)
-    for topic, kind, is_read in bridged_topics(model):
-        if not is_read:
-            found.setdefault(topic, set()).add(last(kind))
-    for source in yamls(model):
-        for one in settings(source):
-            if one.kind in _OF_CONTROLLERS:
-                topic, kind = _OF_CONTROLLERS[one.kind]
-                found.setdefault(f"{one.name}/{topic}", set()).add(kind)
-    for node in launched_nodes(model):
-        for topic, kind in _OF_NODES.get(node.program, ()) if node.package == "robot_localization" else ():
-            found.setdefault(_remapped(node, topic), set()).add(kind)
+    for kind, topics in published_by_type(model).items():
+        for topic in topics:
+            found.setdefault(topic, set()).add(kind)
     return found
-
-
-def _remapped(node: LaunchedNode, topic: str) -> str:
-    """Return the topic that a node uses instead of one of its own, without slashes at its ends."""
-    names = {old.name.removeprefix("~").strip("/"): new.name for old, new in node.remappings}
-    return names.get(topic, topic).strip("/")
 
 
 @record(eq=False)
@@ -185,10 +155,10 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
                     parameter = group.find(topic) if topic.endswith("_topic") else None
                     if parameter is not None or not topic.endswith("_topic"):
                         used = parameter.text if parameter is not None else topic
-                        ends.append(_End(_remapped(node, used.strip("/")), is_stamped, name, (source, value)))
+                        ends.append(_End(remapped(node, used.strip("/")), is_stamped, name, (source, value)))
             inputs = group.find("topics") if node.package == "twist_mux" else None
             for _, entry in inputs.entries if inputs is not None else ():
                 if (used_topic := entry.find("topic")) is not None:
-                    topic = _remapped(node, used_topic.text.strip("/"))
+                    topic = remapped(node, used_topic.text.strip("/"))
                     readers.append(_End(topic, is_stamped, name, (source, value)))
     return publishers, readers

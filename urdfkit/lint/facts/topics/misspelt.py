@@ -9,21 +9,21 @@ import ast
 import re
 from collections.abc import Iterator
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
 from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import documents, start_of, walk
-from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.facts.gazebo.sensor_topics import depth_clouds, published
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.facts.topics.graph import has_namespaces, is_closed, published_by_type
 from urdfkit.lint.facts.topics.robot_topics import BRIDGE_KEYS, RobotTopics, last, robot_topics
 from urdfkit.lint.facts.topics.words import Words
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -52,6 +52,15 @@ _TYPES = {
 }
 """Parameter without its number → type of the messages that the node reads."""
 
+_SCAN, _CLOUD = {"scan": "LaserScan"}, {"cloud_in": "PointCloud2"}
+_INPUTS = {
+    **dict.fromkeys(("amcl", "gmapping", "nav2_amcl", "slam_toolbox"), _SCAN),
+    **dict.fromkeys(("octomap_server", "pointcloud_to_laserscan"), _CLOUD),
+    "nav2_velocity_smoother": {"odom": "Odometry"},
+    "robot_localization": {"imu": "Imu"},
+}
+"""Package → topics that its nodes read and the types of the messages, under the names that launch files remap."""
+
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
 """Words added to the topic of a sensor that give a topic without publisher."""
 
@@ -76,7 +85,7 @@ class Mention:
 
 
 def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
-    """Yield the place of each misspelt topic, the topic, and the topic that is meant."""
+    """Yield the place of each misspelt or unpublished topic, the topic, and the end of the message."""
     topics = robot_topics(model)
     words = Words(model)
     seen = {
@@ -93,25 +102,41 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
         if near is not None and words.occurs_once(_part(mention.topic.name, near)):
             seen.add((mention.source.file, mention.topic.start))
             start = mention.topic.start
-            yield mention.source.span(start, start + len(mention.topic.name)), mention.topic.name, near
-    for mention, near in unpublished(model, words):
+            span = mention.source.span(start, start + len(mention.topic.name))
+            yield span, mention.topic.name, Suggestion(near, mention.topic.name)
+    for mention, others in unpublished(model, words):
         if (mention.source.file, start := mention.topic.start) not in seen:
-            yield mention.source.span(start, start + len(mention.topic.name)), mention.topic.name, near
+            near = others[0] if len(others) == 1 else nearest(mention.topic.name.strip("/"), others, cutoff=0.6)
+            span = mention.source.span(start, start + len(mention.topic.name))
+            listed = f"; {_listed(mention.type, others)}"
+            yield span, mention.topic.name, Suggestion(near, mention.topic.name) if near is not None else listed
     for name, elements in topics.elements.items():
         if name in COMMON or name in topics.bridged or len(elements) > 1:
             continue
         others = (COMMON | topics.bridged) - topics.described
         near = next((each for each in sorted(others) if _is_misspelling(name, each, True)), None)
         if near is not None and elements[0].text.strip().endswith(name) and words.occurs_once(name):
-            yield model.span(elements[0].origin.position), elements[0].text.strip(), near
+            yield (
+                model.span(elements[0].origin.position),
+                elements[0].text.strip(),
+                Suggestion(near, elements[0].text.strip()),
+            )
+
+
+def _listed(kind: str, topics: list[str]) -> str:
+    return f"the {kind} topics of these packages are {', '.join(f'`{topic}`' for topic in topics[:3])}"
 
 
 def mentions(model: Model) -> Iterator[Mention]:
     """Yield the topics in remappings, parameters, arguments and bridges of the related files."""
     for node in launched_nodes(model):
-        for old, new in node.remappings if node.source.file.endswith(".py") else ():
-            yield Mention(node.source, old)
-            yield Mention(node.source, new, last(old.name) in ("scan", "points", "image"))
+        is_python, inputs = node.source.file.endswith(".py"), _INPUTS.get(node.package, {})
+        for old, new in node.remappings:
+            kind = inputs.get(old.name.strip("/"), "")
+            if is_python or kind:
+                yield Mention(node.source, old)
+                reads = last(old.name) in ("scan", "points", "image")
+                yield Mention(node.source, new, reads and is_python, type=kind)
     for file, source in model.related_files.items():
         if file.endswith((".launch.py", "_launch.py")):
             yield from _in_python(source)
@@ -130,11 +155,20 @@ def mentions(model: Model) -> Iterator[Mention]:
                         yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input, type)
 
 
-def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, str]]:
-    """Yield the topics that a node reads and no file publishes, with the only topic of the robot of that type."""
+def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]]]:
+    """Yield the topics that a node reads and nothing publishes, with the topics of the robot of that type.
+
+    If the launch files may start another publisher, only a robot with one topic of the type is checked. Several
+    mentions of a topic have one cause, such as a remapping, and are reported once.
+    """
     read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
-    by_type = _published_by_type(model) if read else {}
-    controllers = robot_topics(model).controllers if read else ()
+    is_all = bool(read) and is_closed(model)
+    by_type = published_by_type(model, not is_all) if read else {}
+    if not by_type:
+        return
+    controllers = robot_topics(model).controllers
+    in_namespaces = has_namespaces(model) or not is_all
+    has_camera, seen = _has_camera_driver(model), set[str]()
     places = [(mention.source.file, mention.topic.start) for mention in read]
     for file, source in model.related_files.items():
         if file.endswith((".yaml", ".yml")):
@@ -143,31 +177,16 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, str]]:
             )
     for mention in read:
         topic, topics = mention.topic.name.strip("/"), by_type.get(mention.type, set())
+        if topic in topics or topic in seen or (mention.type == "PointCloud2" and has_camera):
+            continue
         is_below = any(
             f"/{one}".endswith(f"/{other}") for each in topics for one, other in ((each, topic), (topic, each))
         )
         is_other = topic.startswith("odometry/") or topic.partition("/")[0] in controllers
-        if len(topics) == 1 and not is_below and not is_other and not words.names(topic, places):
-            yield mention, next(iter(topics))
-
-
-def _published_by_type(model: Model) -> dict[str, set[str]]:
-    """Return ROS type without package → topics of the sensors, drives and bridges of the robot."""
-    found: dict[str, set[str]] = {}
-    for publication in published(model):
-        if publication.type in ("LaserScan", "Imu"):
-            found.setdefault(publication.type, set()).add(publication.topic.strip("/"))
-    for topic, kind, is_read in bridged_topics(model):
-        if not is_read:
-            found.setdefault(last(kind), set()).add(topic)
-    for topic in depth_clouds(model) if not _has_camera_driver(model) else ():
-        found.setdefault("PointCloud2", set()).add(topic)
-    for plugin, _, _ in plugins(model.robot):
-        for rule in (each for ros in plugin.element.find_all("ros") for each in ros.find_all("remapping")):
-            old, _, new = rule.text.partition(":=")
-            if old.strip() == "odom" and new:
-                found.setdefault("Odometry", set()).add(new.strip().strip("/"))
-    return found
+        is_open = (is_below and in_namespaces) or ((is_other or len(topics) > 1) and not is_all)
+        if topics and not is_open and not words.names(topic, places):
+            seen.add(topic)
+            yield mention, sorted(topics)
 
 
 _CAMERA_DRIVERS = r"realsense|depthai|astra|zed_|orbbec|kinect_ros|azure_kinect|openni"

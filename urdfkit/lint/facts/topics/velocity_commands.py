@@ -19,6 +19,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of, walk
 from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
+from urdfkit.lint.facts.topics.graph import drive_topics, has_namespaces, remaps_groups
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
@@ -64,6 +65,9 @@ _COMMANDS = {
 }
 """Package → the topic on which its node publishes velocity commands."""
 
+_SENDERS = ("twist_mux", "controller_server", "velocity_smoother", "teleop_node")
+"""Programs whose velocity commands must reach the drive without a remapping on the command line."""
+
 _DRIVES = r"drive|planar|velocity|mecanum|holonomic|ackermann|steer|force|prius"
 
 
@@ -108,15 +112,18 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the new name and the message of each velocity topic that no node reads."""
     nodes = [node for node in launched_nodes(model) if node.package in _COMMANDS]
     written = [(node, old, new) for node in nodes for old, new in node.remappings if _is_command(node, old)]
-    drives = _drive_topics(model) if written else frozenset()
-    every = velocity_inputs(model) if written else drives
+    drives = _drive_topics(model) if nodes else frozenset()
+    every = velocity_inputs(model) if nodes else drives
     own = [(node.source.file, name.start) for node, old, new in written for name in (old, new)]
     used = {new.name.strip("/") for _, _, new in written}
+    muxes = {node.source.file for node in nodes if node.package == "twist_mux"}
     words, seen = Words(model), set[str]()
+    yield from _unmoved_outputs(model, nodes, (drives, every), words, own)
     for node, _, new in written:
         topic = new.name.strip("/")
         # A driver in another package may read the output of twist_mux, and cmd_vel.
-        readers = drives if node.package == "twist_mux" or topic.endswith("cmd_vel") else every
+        is_of_driver = topic.endswith("cmd_vel") and (topic == "cmd_vel" or node.source.file not in muxes)
+        readers = drives if node.package == "twist_mux" or is_of_driver else every
         if not readers or topic in every | seen or not re.fullmatch(r"[\w/]+", topic) or words.names(topic, own):
             continue
         if (
@@ -135,8 +142,34 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
         yield node.source, new, f"no node reads the velocity commands on `{new.name}`" + what
 
 
-def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str]]:
-    """Yield the topics of a twist_mux that nearly match a topic of velocity commands: file, value and message."""
+def _unmoved_outputs(
+    model: Model,
+    nodes: list[LaunchedNode],
+    readers: tuple[frozenset[str], frozenset[str]],
+    words: Words,
+    own: list[tuple[str, int]],
+) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the nodes without a remapping whose velocity commands no drive and no other node reads."""
+    drives, every = readers
+    if not drives or remaps_groups(model) or has_namespaces(model):
+        return
+    seen = {"cmd_vel"} if _has_drive(model) else set[str]()
+    for node in nodes:
+        topic = _COMMANDS[node.package]
+        is_moved = node.has_more_remappings or any(_is_command(node, old) for old, _ in node.remappings)
+        if is_moved or topic in every | seen or node.program not in _SENDERS or node.place is None:
+            continue
+        seen.add(topic)
+        if words.names(topic, own):
+            continue
+        others = sorted(drives if node.package == "twist_mux" else every)
+        what = f"; remap it to `{others[0]}`" if len(others) == 1 else ""
+        named = Named(node.source.text[slice(*node.place)], node.place[0])
+        yield node.source, named, f"no node reads the velocity commands on `{topic}` of this node{what}"
+
+
+def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:
+    """Yield the topics of a twist_mux that nearly match a topic of velocity commands: file, value, that topic, message."""
     published = set[str]()
     for node in (each for each in launched_nodes(model) if each.package in _COMMANDS and each.package != "twist_mux"):
         moved = {old.name.removeprefix("~").strip("/"): new.name.strip("/") for old, new in node.remappings}
@@ -151,11 +184,8 @@ def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 if topic is None or near is None or near in set(_mux_topics(model)):
                     continue
                 if not words.names(name, [(source.file, start_of(source, topic))]):
-                    yield (
-                        source,
-                        topic,
-                        f"no node publishes velocity commands on `{topic.text}`" + Suggestion(near, topic.text),
-                    )
+                    message = f"no node publishes velocity commands on `{topic.text}`" + Suggestion(near, topic.text)
+                    yield source, topic, near, message
 
 
 def velocity_inputs(model: Model) -> frozenset[str]:
@@ -198,6 +228,7 @@ def _drive_topics(model: Model) -> frozenset[str]:
     for text, _, parameter, _ in references(model, ("topic",)):
         if parameter.meaning == "command_topic":
             found.add(text.strip().strip("/"))
+    found |= set(drive_topics(model, "command_topic"))
     found |= {topic for topic, kind, is_read in bridged_topics(model) if is_read and "geometry_msgs/msg/Twist" in kind}
     return frozenset(found)
 

@@ -16,6 +16,9 @@ from urdfkit.lint.project.code_files import code_texts
 _NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
 """Endings of the other files that can name a topic."""
 
+_NO_TOPIC = r"(?:frame\w*[\"']?\s*(?:[:=>,]|\bvalue=)\s*|\b(?:type|name)=)[\"']?/?$"
+"""Matches the text before a name that is a frame, a type or the name of an element."""
+
 _MAX_FILES = 400
 
 
@@ -36,8 +39,10 @@ class Words:
         pattern = re.compile(rf"(?<![\w/~])(?<!name=[\"'])/?{re.escape(topic)}(?![\w/])")
         model = self._model
         for file, source in {**model.expanded.sources, **model.related_files}.items():
-            if any((file, at.start()) not in places for at in pattern.finditer(source.text)):
-                return True
+            for at in pattern.finditer(source.text):
+                before = source.text[max(source.text.rfind("\n", 0, at.start()), at.start() - 60, 0) : at.start()]
+                if (file, at.start()) not in places and not re.search(_NO_TOPIC, before, re.IGNORECASE):
+                    return True
         return self.match(pattern.pattern)
 
     def match(self, pattern: str) -> bool:

@@ -1,6 +1,5 @@
 """K977 topic-misspelt."""
 
-from urdfkit.defect_message import Suggestion
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -45,6 +44,6 @@ class TopicMisspelt(RobotRule):
         """Yield a finding for each misspelt topic."""
         from urdfkit.lint.facts.topics.misspelt import misspelt_topics
 
-        for span, topic, meant in misspelt_topics(model):
-            message = f"no other file names the topic `{topic}`" + Suggestion(meant, topic)
-            yield self.at_span(span, message)
+        for span, topic, hint in misspelt_topics(model):
+            message = f"no other file names the topic `{topic}`" + hint
+            yield self.at_span(span, message, names=(topic.strip("/"),))

@@ -52,5 +52,7 @@ class TopicUnconnected(RobotRule):
         for source, name, message in (*misnamed_remappings(model), *unread_commands(model)):
             span = source.span(name.start, name.start + len(name.name))
             yield self.at_span(span, message)
-        for source, value, message in (*unconnected_monitors(model), *unfed_mux_topics(model)):
+        for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
+        for source, value, near, message in unfed_mux_topics(model):
+            yield self.at_span(span_of(source, value), message, names=(near,))

@@ -1,0 +1,155 @@
+"""The topics that the nodes, plugins, controllers and bridges of a workspace publish, after remapping.
+
+Sources: gazebo_ros_pkgs (noetic-devel and ros2: gazebo_plugins/src), robot_localization (ros_filter.cpp,
+navsat_transform.cpp), ros2_controllers (diff_drive_controller.cpp, steering_controllers_library.cpp,
+tricycle_controller.cpp) and the READMEs of the packages in `_WITHOUT_SENSORS`, Noetic to Rolling.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.lint.facts.control.controller_settings import settings
+from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
+from urdfkit.lint.facts.control.yaml_tree import yamls
+from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
+from urdfkit.lint.facts.gazebo.sensor_topics import depth_clouds, published
+from urdfkit.lint.facts.launch.actions import launch_files
+from urdfkit.lint.facts.launch.receivers import receiver
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.topics.robot_topics import last
+from urdfkit.lint.model.model import Model
+
+_CONTROLLERS = (
+    (r"diff_drive_controller/|tricycle_controller/|mecanum_drive_controller/", "odom", "Odometry"),
+    (r"_steering_controller/|mecanum_drive_controller/", "odometry", "Odometry"),
+    (r"imu_sensor_broadcaster/", "imu", "Imu"),
+    (r"force_torque_sensor_broadcaster/", "wrench", "WrenchStamped"),
+)
+"""Pattern of the type of a controller → its topic and the type of the messages."""
+
+_NODES = {
+    "ekf_node": (("odometry/filtered", "Odometry"),),
+    "ukf_node": (("odometry/filtered", "Odometry"),),
+    "ekf_localization_node": (("odometry/filtered", "Odometry"),),
+    "ukf_localization_node": (("odometry/filtered", "Odometry"),),
+    "navsat_transform_node": (("odometry/gps", "Odometry"), ("gps/filtered", "NavSatFix")),
+}
+"""Program of robot_localization → topics and types of their messages."""
+
+_WITHOUT_SENSORS = """
+controller_manager gazebo_ros image_proc image_transport joint_state_publisher joint_state_publisher_gui joy joy_linux
+joy_teleop map_server move_base moveit_ros_move_group moveit_servo nav2_amcl nav2_behaviors nav2_bt_navigator
+nav2_collision_monitor nav2_controller nav2_lifecycle_manager nav2_map_server nav2_planner nav2_recoveries nav2_smoother
+nav2_velocity_smoother nav2_waypoint_follower amcl octomap_server opennav_docking robot_localization
+robot_state_publisher ros_gz_bridge ros_gz_image ros_gz_sim ros_ign_bridge ros_ign_gazebo ros_ign_image rqt_graph
+rqt_gui rqt_image_view rqt_robot_steering rviz rviz2 slam_toolbox teleop_twist_joy teleop_twist_keyboard tf tf2_ros
+twist_mux explore_lite gmapping hector_mapping slam_gmapping
+"""
+"""Packages whose nodes publish no sensor messages and no odometry but that of `_NODES`."""
+
+_DRIVERS = {
+    **dict.fromkeys(
+        ("rplidar_ros", "sllidar_ros", "urg_node", "urg_node2", "ydlidar_ros2_driver", "pointcloud_to_laserscan"),
+        (("scan", "LaserScan"),),
+    ),
+    "depthimage_to_laserscan": (("scan", "LaserScan"),),
+    "usb_cam": (("image_raw", "Image"),),
+    "v4l2_camera": (("image_raw", "Image"),),
+    "nmea_navsat_driver": (("fix", "NavSatFix"),),
+    "imu_filter_madgwick": (("imu/data", "Imu"),),
+}
+"""Package → topics of its nodes and the types of the messages; other nodes may publish anything."""
+
+_INCLUDED = ("nav2_bringup", "slam_toolbox", "gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
+_NAMESPACES = r"namespace\s*=|PushRos\w*Namespace|push[-_]ros[-_]namespace|<group\b[^<>]*\bns\s*=|<node\b[^<>]*\bns\s*="
+_REMAPS = r"SetRemap\s*\(|<set_remap\b"
+
+
+def published_by_type(model: Model, of_sensors_only: bool = False) -> dict[str, set[str]]:
+    """Return ROS type without package → topics, without slashes at their ends."""
+    found: dict[str, set[str]] = {}
+    for topic, kind in (*_of_sensors(model), *(() if of_sensors_only else _of_nodes(model))):
+        found.setdefault(kind, set()).add(topic)
+    return found
+
+
+def is_closed(model: Model) -> bool:
+    """Return whether the launch files start nodes only whose sensor messages and odometry are known."""
+    names = {*_WITHOUT_SENSORS.split(), *_DRIVERS}
+    nodes = launched_nodes(model)
+    calls = [call for file in launch_files(model) for call in file.includes]
+    is_known = all(receiver(call, model) is not None or call.package in _INCLUDED for call in calls)
+    return bool(nodes or calls) and is_known and all(node.package in names for node in nodes)
+
+
+def has_namespaces(model: Model) -> bool:
+    """Return whether a launch file starts nodes in a namespace, so that relative names of topics differ."""
+    return any(re.search(_NAMESPACES, file.source.text) for file in launch_files(model))
+
+
+def remaps_groups(model: Model) -> bool:
+    """Return whether a launch file remaps topics of all nodes in a group."""
+    return any(re.search(_REMAPS, file.source.text) for file in launch_files(model))
+
+
+def remapped(node: LaunchedNode, topic: str) -> str:
+    """Return the topic that a node uses instead of one of its own, without slashes at its ends."""
+    names = {old.name.removeprefix("~").strip("/"): new.name for old, new in node.remappings}
+    return names.get(topic, topic).strip("/")
+
+
+def drive_topics(model: Model, meaning: str) -> Iterator[str]:
+    """Yield the ROS topics of drives of Gazebo Classic with their namespaces, those by default too.
+
+    Args:
+        model: the linted model.
+        meaning: ``command_topic`` or ``odometry_topic``.
+    """
+    from urdfkit.description.plugins import read
+
+    default = {"command_topic": "cmd_vel", "odometry_topic": "odom"}[meaning]
+    for plugin, _, _ in plugins(model.robot):
+        spec = spec_of(plugin, model.target)
+        if spec is None or not re.search(r"drive|planar_move", spec.kind) or spec.generation == "gz":
+            continue
+        ros = plugin.element.find("ros") if spec.generation == "ros2" else None
+        texts = read(plugin, spec)
+        parameter = spec.by_meaning(meaning)
+        topic, space = texts.get(meaning) or default, texts.get("namespace", "")
+        if spec.generation == "ros1" and parameter is None:
+            continue
+        for rule in (*ros.find_all("remapping"), *ros.find_all("argument")) if ros is not None else ():
+            old, _, new = rule.text.partition(":=")
+            topic = new.strip() if old.strip().strip("/") == default and new else topic
+        if ros is not None and (written := ros.find("namespace")) is not None:
+            space = written.text
+        if "$" not in f"{space}{topic}":
+            yield topic.strip("/") if topic.startswith("/") else f"{space.strip('/')}/{topic}".strip("/")
+
+
+def _of_sensors(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield topic and type of the messages of sensors and bridges, and of odometry on a topic that is chosen."""
+    for publication in published(model):
+        if publication.type and publication.is_ros:
+            yield publication.topic.strip("/"), publication.type
+    for topic, kind, is_read in bridged_topics(model):
+        if not is_read:
+            yield topic, last(kind)
+    yield from ((topic, "PointCloud2") for topic in depth_clouds(model))
+    yield from ((topic, "Odometry") for topic in drive_topics(model, "odometry_topic") if topic != "odom")
+
+
+def _of_nodes(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield topic and type of the messages of drives, controllers and nodes."""
+    yield from ((topic, "Odometry") for topic in drive_topics(model, "odometry_topic"))
+    for source in yamls(model):
+        for one in settings(source):
+            for pattern, topic, kind in _CONTROLLERS:
+                if one.kind and re.match(pattern, one.kind):
+                    yield f"{one.name}/{topic}", kind
+    for node in launched_nodes(model):
+        own = _NODES.get(node.program, ()) if node.package == "robot_localization" else _DRIVERS.get(node.package, ())
+        for topic, kind in own:
+            yield remapped(node, topic), kind
