@@ -19,6 +19,7 @@ def generate_launch_description():
     return LaunchDescription([
         IncludeLaunchDescription(PythonLaunchDescriptionSource(prefix), launch_arguments=arguments),
         Node(package="rviz2", executable="rviz2", arguments=["-d" "cart.rviz"]),  # <!-- expect: L108 -->
+        Node(package="rviz2", executable="rviz2", arguments=["-d cart.rviz"]),  # <!-- expect: L108 -->
         ExecuteProcess(
             cmd=[
                 "ros2",

@@ -20,6 +20,7 @@ def generate_launch_description():
         Node(package="rviz2", executable="rviz2", parameters=simulated),  # <!-- expect: L106 -->
         launch.actions.ExecuteProcess(cmd="ls", output="screen"),  # <!-- expect: L106, L106 -->
         GroupAction([]),
+        launch.actions.DeclareLaunchArgument("paused", default_value=False),  # <!-- expect: L106 -->
         launch.actions.IncludeLaunchDescription("z.launch.py", condition=LaunchConfiguration("gui")),  # <!-- expect: L106 -->
         launch.actions.IncludeLaunchDescription("z.launch.py", launch_arguments={"gui": True}.items()),  # <!-- expect: L106 -->
         launch.actions.IncludeLaunchDescription("x.launch.py", launch_arguments={"gui": "1"}.items),  # <!-- expect: L106 -->

@@ -51,6 +51,9 @@ REQUIRED = {
 }
 """Required key → keys that stand for it."""
 
+_OF_IMAGES = ("sensor_msgs/msg/Image", "gz.msgs.Image", "GZ_TO_ROS")
+"""Types and direction of the topics of image_bridge (ros_gz_image, README)."""
+
 DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ", "IGN_TO_ROS", "ROS_TO_IGN")
 """Directions in the YAML files of ros_gz_bridge (Humble to Rolling)."""
 
@@ -115,7 +118,7 @@ def bridged_topics(model: Model) -> Iterator[tuple[str, str, bool]]:
                 is_read = direction is None or not direction.text.endswith("_TO_ROS")
                 yield topic.text.strip("/"), kind.text, is_read
     for name, source in model.related_files.items():
-        for bridge in in_launch(source) if name.endswith(LAUNCH) and "parameter_bridge" in source.text else ():
+        for bridge in in_launch(source) if name.endswith(LAUNCH) and "_bridge" in source.text else ():
             if bridge.topic is not None and bridge.ros is not None and bridge.direction is not None:
                 yield bridge.topic.name.strip("/"), bridge.ros.name, bridge.direction.name != "GZ_TO_ROS"
 
@@ -131,13 +134,16 @@ def malformed_in_launch(source: Source) -> Iterator[Named]:
 
 
 def in_launch(source: Source) -> Iterator[Bridged]:
-    """Yield the bridges in the node arguments of a launch file: ``topic@ros_type[gz_type``."""
+    """Yield the bridges in the node arguments of a launch file: ``topic@ros_type[gz_type``, or topics of images."""
     from urdfkit.lint.facts.control.launched_nodes import started
 
     for node in started(source):
-        if node.program != "parameter_bridge":
+        if node.program not in ("parameter_bridge", "image_bridge"):
             continue
         for word in node.arguments:
+            if node.program == "image_bridge" and word is not None and re.fullmatch(r"/?[\w/]+", word.name):
+                ros, gazebo, way = (Named(name, word.start) for name in _OF_IMAGES)
+                yield Bridged(word, ros, gazebo, way)
             at = re.fullmatch(r"([^@\s]+)@([\w/.]+)([@\[\]])([\w.:/]+)", word.name) if word is not None else None
             if word is None or at is None:
                 continue

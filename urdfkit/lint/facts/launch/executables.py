@@ -36,7 +36,12 @@ nav2_waypoint_follower: waypoint_follower; nav2_velocity_smoother: velocity_smoo
 collision_monitor collision_detector; nav2_costmap_2d: nav2_costmap_2d nav2_costmap_2d_markers nav2_costmap_2d_cloud;
 cartographer_ros: cartographer_node cartographer_occupancy_grid_node occupancy_grid_node cartographer_offline_node
 cartographer_assets_writer cartographer_pbstream_map_publisher cartographer_rosbag_validate; map_server: map_server
-map_saver crop_map; amcl: amcl; move_base: move_base; gmapping: slam_gmapping; hector_mapping: hector_mapping;
+map_saver crop_map;
+octomap_server: octomap_color_server_node octomap_server_node color_octomap_server_node octomap_saver_node
+octomap_saver octomap_server_static octomap_server_static_node octomap_server_multilayer octomap_server_multilayer_node
+tracking_octomap_server_node octomap_tracking_server_node octomap_eraser_cli.py;
+amcl: amcl; move_base: move_base; gmapping: slam_gmapping;
+hector_mapping: hector_mapping;
 topic_tools: relay mux throttle drop transform relay_field switch_mux mux_add mux_delete mux_list mux_select demux
 delay; rosbag: record play rosbag; image_transport: republish list_transports; image_view: image_view image_saver
 stereo_view video_recorder extract_images disparity_view; usb_cam: usb_cam_node usb_cam_node_exe; v4l2_camera:

@@ -16,6 +16,9 @@ _COMMANDS = ("gz_args", "ign_args", "extra_gazebo_args")
 """Launch arguments that are words of a command."""
 
 _OPTION = r"--?[A-Za-z][\w-]*"
+_SEVERAL = r"^--?[A-Za-z][\w-]*\s+\S|\s--?[A-Za-z][\w-]*(?:\s|$)"
+"""Matches an option and its value in one text."""
+
 _LITERAL = r"[rRbBuU]?(\"[^\"\n]*\"|'[^'\n]*')"
 
 
@@ -30,6 +33,10 @@ def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
         if name_of(node.func) == "Command" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
             yield from _in_command(source, node.args[0].elts, reader)
         for word in node.keywords:
+            is_node = name_of(node.func) in ("Node", "LifecycleNode") and word.arg == "arguments"
+            for item in word.value.elts if is_node and isinstance(word.value, (ast.List, ast.Tuple)) else ():
+                if isinstance(item, ast.Constant) and isinstance(item.value, str) and re.search(_SEVERAL, item.value):
+                    yield place(source, item), f"`{item.value}` is one word; write each word as a string of its own"
             if word.arg in _LISTS and isinstance(word.value, ast.List):
                 yield from _in_list(source, word.value.elts)
 

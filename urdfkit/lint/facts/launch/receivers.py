@@ -108,7 +108,9 @@ def included_files(first: LaunchActions, model: Model) -> Iterator[LaunchActions
         for call in file.includes:
             path = receiver(call, model)
             actions = actions_at(path, model) if path is not None else None
-            if actions is None:
+            if actions is None and (call.package, call.path.rpartition("/")[2]) not in OUTSIDE:
                 yield None
+            elif actions is None:
+                continue
             else:
                 pending.append(actions)

@@ -71,13 +71,25 @@ controller_frequency cycle_frequency inflation_radius resolution robot_radius sm
 xy_goal_tolerance yaw_goal_tolerance z_resolution max_particles min_particles max_beams width height bt_loop_duration
 cost_scaling_factor default_server_timeout desired_linear_vel expected_planner_frequency lookahead_dist lookahead_time
 max_lookahead_dist min_lookahead_dist movement_time_allowance obstacle_max_range publish_frequency raytrace_max_range
-sim_time transform_tolerance
+sim_time transform_tolerance required_movement_radius alpha1 alpha2 alpha3 alpha4 alpha5
 """
 POSITIVE = frozenset(_POSITIVE.split())
 
 MAY_BE_ZERO = frozenset(
     (
-        *("robot_radius", "inflation_radius", "width", "height", "cost_scaling_factor", "expected_planner_frequency"),
+        *(
+            "alpha1",
+            "alpha2",
+            "alpha3",
+            "alpha4",
+            "alpha5",
+            "robot_radius",
+            "inflation_radius",
+            "width",
+            "height",
+            "cost_scaling_factor",
+            "expected_planner_frequency",
+        ),
         *("min_lookahead_dist", "publish_frequency", "transform_tolerance", "sensor_timeout", "transform_timeout"),
         *("minimum_time_interval", "minimum_travel_distance", "minimum_travel_heading", "transform_publish_period"),
     )

@@ -50,7 +50,8 @@ def without_clock(model: Model) -> Defects:
             if node.inline is None or _KEY in node.inline or not is_unset or not _is_timed(node):
                 continue
             other = next((each for each in setting if _family(each) == _family(node)), None)
-            at = node.place or _name_place(node)
+            is_python = node.source.file.endswith(".py")
+            at = (None if is_python else _name_place(node)) or node.place
             if other is not None and at is not None:
                 label = node.name.name if node.name is not None else node.program
                 message = f"node `{label}` has no `{_KEY}`, but the other `{other.program}` has"

@@ -80,8 +80,8 @@ def is_closed(model: Model) -> bool:
     names = {*_WITHOUT_SENSORS.split(), *_DRIVERS}
     nodes = launched_nodes(model)
     calls = [call for file in launch_files(model) for call in file.includes]
-    is_known = all(receiver(call, model) is not None or call.package in _INCLUDED for call in calls)
-    return bool(nodes or calls) and is_known and all(node.package in names for node in nodes)
+    is_listed = all(receiver(call, model) is not None or call.package in _INCLUDED for call in calls)
+    return bool(nodes or calls) and is_listed and all(node.package in names for node in nodes)
 
 
 def has_namespaces(model: Model) -> bool:
@@ -147,7 +147,7 @@ def _of_nodes(model: Model) -> Iterator[tuple[str, str]]:
     for source in yamls(model):
         for one in settings(source):
             for pattern, topic, kind in _CONTROLLERS:
-                if one.kind and re.match(pattern, one.kind):
+                if one.kind and re.search(pattern, one.kind):
                     yield f"{one.name}/{topic}", kind
     for node in launched_nodes(model):
         own = _NODES.get(node.program, ()) if node.package == "robot_localization" else _DRIVERS.get(node.package, ())

@@ -63,7 +63,7 @@ def robot_topics(model: Model) -> RobotTopics:
             is_equal = len(names) < 2 or not is_slip(names[0], names[-1])
             bridged.update(names if is_equal else names[-1:])
     for name, source in model.related_files.items():
-        if name.endswith(LAUNCH) and "parameter_bridge" in source.text:
+        if name.endswith(LAUNCH) and "_bridge" in source.text:
             bridged.update(last(bridge.topic.name) for bridge in in_launch(source) if bridge.topic is not None)
     return RobotTopics(
         frozenset(elements),

@@ -1,7 +1,8 @@
 """Remappings of common nodes: names that the node does not have, and velocity commands that no node reads.
 
 Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher,
-robot_localization (navsat_transform.cpp, ros_filter.cpp), nav2_velocity_smoother, nmea_navsat_driver (driver.py),
+robot_localization (navsat_transform.cpp, ros_filter.cpp), octomap_server (octomap_server.cpp), nav2_velocity_smoother,
+nmea_navsat_driver (driver.py),
 diff_drive_controller and steering_controllers_library (README and source files), Noetic to Rolling.
 """
 
@@ -36,6 +37,8 @@ _NAMES = {
     ),
     "robot_localization/navsat_transform_node": "imu gps/fix odometry/filtered odometry/gps gps/filtered datum toLL"
     " fromLL fromLLArray setUTMZone",
+    "octomap_server": "cloud_in octomap_binary octomap_full octomap_point_cloud_centers occupied_cells_vis_array"
+    " free_cells_vis_array projected_map map clear_bbx reset clear_bbox",
     "robot_state_publisher": "joint_states robot_description",
     "teleop_twist_joy": "cmd_vel joy",
     "teleop_twist_keyboard": "cmd_vel key_vel",
@@ -169,7 +172,7 @@ def _unmoved_outputs(
 
 
 def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:
-    """Yield the topics of a twist_mux that nearly match a topic of velocity commands: file, value, that topic, message."""
+    """Yield the topics of a twist_mux that nearly match a topic of velocity commands: file, value, topic, message."""
     published = set[str]()
     for node in (each for each in launched_nodes(model) if each.package in _COMMANDS and each.package != "twist_mux"):
         moved = {old.name.removeprefix("~").strip("/"): new.name.strip("/") for old, new in node.remappings}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -9,7 +10,8 @@ class Ros2ControlMimic(RobotRule):
     """The ``mimic`` parameter of a joint in ``<ros2_control>`` contradicts the robot.
 
     ## What it does
-    Compares the parameter with the joints and with ``<mimic>`` of the same joint.
+    Compares the parameter with the joints and with ``<mimic>`` of the same joint. Since Jazzy, also reports a mimic
+    joint with a command interface.
 
     ## Why is this bad?
     The hardware and ``robot_state_publisher`` couple the joint to different joints, or the description is rejected.
@@ -66,6 +68,8 @@ class Ros2ControlMimic(RobotRule):
         for block in model.robot.ros2_control:
             for element in block.element.find_all("joint"):
                 name = element.get("name") or ""
+                if (message := _commanded(model, element, name)) is not None:
+                    yield self.at(model, element, message, joint=name, help="remove its command interfaces")
                 for parameter in (each for each in element.find_all("param") if each.get("name") == "mimic"):
                     master = parameter.text.strip()
                     if name not in joints or "$" in master:
@@ -83,3 +87,17 @@ class Ros2ControlMimic(RobotRule):
                     if message:
                         help = f"write `{mimic.joint}`" if mimic is not None else None
                         yield self.at(model, parameter, message, joint=name, help=help)
+
+
+def _commanded(model: Model, element: Element, name: str) -> str | None:
+    """Return the message for a mimic joint with command interfaces, which ros2_control refuses since Jazzy.
+
+    Source: ros2_control (hardware_interface/src/component_parser.cpp).
+    """
+    from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
+
+    joint = model.robot.joint_by_name.get(name)
+    is_mimic = joint is not None and joint.mimic is not None and (element.get("mimic") or "true").lower() != "false"
+    if model.release not in WITHOUT_CLASSIC or not is_mimic or element.find("command_interface") is None:
+        return None
+    return f"joint `{name}` mimics another joint and has a command interface, which ros2_control refuses"

@@ -96,7 +96,7 @@ class LaunchArgumentUnknown(RobotRule):
                 yield self._at(file, name, message, self.severity)
 
     def _include(self, file: LaunchActions, call: Call, actions: LaunchActions, model: Model) -> Findings:
-        from urdfkit.lint.facts.launch.receivers import included_files
+        from urdfkit.lint.facts.launch.receivers import OUTSIDE, included_files
 
         names, target = set(actions.declared), call.path.rpartition("/")[2]
         only_misspelt = actions.is_computed or (not actions.declared and not file.is_ros1)
@@ -106,6 +106,8 @@ class LaunchArgumentUnknown(RobotRule):
                     only_misspelt = True
                 else:
                     names |= {*other.declared, *other.assigned, *(use.name for use, _ in other.used)}
+                    for each in other.includes:
+                        names |= {*OUTSIDE.get((each.package, each.path.rpartition("/")[2]), "").split()}
         severity: Severity = "error" if file.is_ros1 else self.severity
         yield from self._unknown(file, call.passed, names, target, only_misspelt, severity)
         passed = {name.name for name in call.passed}

@@ -117,6 +117,8 @@ class PythonLaunchApiMisused(RobotRule):
                 for value in _not_text(word.value):
                     message = "a value of `launch_arguments` is not a string; write it in quotes"
                     yield self._at(source, place(source, value), message)
+            elif word.arg == "default_value" and kind == "DeclareLaunchArgument" and _is_number(word.value):
+                yield self._at(source, (start, end), "`default_value` is not a string; write it in quotes")
             elif word.arg == "condition" and (other := _no_condition(word.value, reader)):
                 message = f"`condition` is a {other}; write `IfCondition(...)` around it"
                 yield self._at(source, (start, end), message)
@@ -170,3 +172,7 @@ def _is_no_list(node: ast.expr, reader: LaunchReader) -> bool:
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
         return node.func.attr == "to_dict"
     return isinstance(node, (ast.Dict, ast.JoinedStr)) or (isinstance(node, ast.Constant) and node.value is not None)
+
+
+def _is_number(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, (bool, int, float))

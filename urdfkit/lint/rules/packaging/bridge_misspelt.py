@@ -21,7 +21,7 @@ _PUBLISHED = frozenset(
 )
 """Types that only sensors and systems of Gazebo publish."""
 
-_BRIDGES = ("gz_type_name", "gz_topic_name", "ros_type_name", "ign_type_name", "parameter_bridge")
+_BRIDGES = ("gz_type_name", "gz_topic_name", "ros_type_name", "ign_type_name", "parameter_bridge", "image_bridge")
 
 
 class BridgeMisspelt(RobotRule):
@@ -164,7 +164,9 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
     commands: set[str] = set()
     sensors = [] if model.is_incomplete else list(published(model))
     others = {"clock", *(publication.topic.strip("/") for publication in sensors)}
+    kinds = [(each.topic.strip("/"), each.type) for each in sensors]
     for text, _, parameter, _ in references(model, ("topic",)) if not model.is_incomplete else ():
+        kinds += [(text.strip().strip("/"), "Odometry")] if parameter.meaning == "odometry_topic" else []
         (commands if parameter.meaning == "command_topic" else others).add(text.strip().strip("/"))
     robot_topics = commands | others
     bridged_topics = {
@@ -192,8 +194,8 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
             message = f"Gazebo publishes `{_type(bridge)}` and does not read it; bridge it from Gazebo to ROS"
             yield source, bridge.direction, message
         elif topic not in robot_topics and not topic.startswith(("world/", "model/")) and "$" not in topic:
-            kinds = [(each.topic.strip("/"), each.type) for each in sensors if each.type == _type(bridge)]
-            free = sorted({name for name, _ in kinds if (source.file, name) not in bridged_topics})
+            same = [name for name, kind in kinds if kind == _type(bridge)]
+            free = sorted({name for name in same if (source.file, name) not in bridged_topics})
             pattern = rf"topic>\s*/?{re.escape(topic)}\s*<"
             texts = [each.text for each in model.expanded.sources.values()]
             is_convertible = _type_defect(bridge) is None
@@ -204,7 +206,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
                 and not words.match(pattern)
             ):
                 near = free[0] if len(free) == 1 else None
-                what = Suggestion(near) if near is not None else f"; its sensors publish {_listed(free)}"
+                what = Suggestion(near) if near is not None else f"; it publishes {_listed(free)}"
                 yield source, bridge.topic, f"the robot has no Gazebo topic `{bridge.topic.name}`" + what
 
 

@@ -16,13 +16,14 @@ TOLERANCE = 0.1
 
 
 class ControllerContradictsWheels(RobotRule):
-    """The parameters of a ``diff_drive_controller`` contradict the wheels of the robot.
+    """The parameters of a drive or steering controller contradict the wheels of the robot.
 
     ## What it does
-    Compares ``wheel_separation`` and ``wheel_radius`` in YAML with the joints and shapes of the wheels, and checks the
-    positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
-    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
-    robot turns. Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
+    Compares ``wheel_separation``, ``wheel_radius``, and the ``wheelbase`` and tracks of steering controllers in YAML
+    with the joints and shapes of the wheels, and checks the positions of the left and right wheels: x points
+    forward and y left (REP 103). Deviations of up to 10 % are accepted. With several wheels on each side, up to
+    twice the separation is accepted, because the wheels slip when the robot turns. Wheels with meshes are not
+    measured. A left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -81,7 +82,14 @@ class ControllerContradictsWheels(RobotRule):
     def _of_steering(self, model: Model) -> Findings:
         """Yield a finding for the radius of driven wheels of a steering controller that differs from the robot's."""
         from urdfkit.lint.facts.control.controller_wheels import steering_wheels
+        from urdfkit.lint.facts.gazebo.steered_axles import axles, exchanged, wrong_lengths
 
+        for each in axles(model):
+            for node, message, actual in wrong_lengths(each):
+                joint = each.wheels["traction"][0][1].joint.name if each.wheels["traction"] else ""
+                yield self._at(each.source, node, message, joint, f"write {actual:.6g}")
+            for node, message in exchanged(each):
+                yield self._at(each.source, node, message, node.text, "exchange the names")
         for source, controller, name, wheels in steering_wheels(model):
             links = [model.robot.link_by_name.get(wheel.joint.child or "") for wheel in wheels]
             shapes = [shape.geometry for link in links if link is not None for shape in link.collisions]

@@ -1,0 +1,46 @@
+"""L125 launch-argument-refused."""
+
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class LaunchArgumentRefused(RobotRule):
+    """A launch argument has a value that is not one of its choices, or is neither true nor false.
+
+    ## What it does
+    Compares the default of an argument, the value that an including launch file passes, and the value in
+    ``LaunchConfigurationEquals`` and ``EqualsSubstitution`` with the ``choices`` of the argument. Also reports defaults
+    and passed values of arguments that are used as conditions, if they are neither true nor false.
+
+    ## Why is this bad?
+    The launch stops: "provided value is not valid". A comparison with another value is never true.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument
+
+
+    def generate_launch_description():
+        return LaunchDescription([DeclareLaunchArgument("mode", default_value="map", choices=["slam", "amcl"])])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument
+
+
+    def generate_launch_description():
+        return LaunchDescription([DeclareLaunchArgument("mode", default_value="slam", choices=["slam", "amcl"])])
+    ```
+    """
+
+    code = "L125"
+    name = "launch-argument-refused"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each value that the launch refuses."""
+        from urdfkit.lint.facts.parameters.launch_arguments import refused_values
+
+        for span, message in refused_values(model):
+            yield self.at_span(span, message)
