@@ -29,7 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--xyz", nargs=3, metavar="M", help="position in LINK [m] (default: a free place on top)")
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
     parser.add_argument(
-        "--reach", metavar="M", help="distance from shoulder to tool [m] (default: in proportion to LINK)"
+        "--reach", metavar="M", help="distance from shoulder to tool [m] (default: proportional to the size of LINK)"
     )
     parser.add_argument("--mass", metavar="KG", help="mass of the arm [kg]")
     parser.add_argument("--payload", metavar="KG", help="payload, including the gripper [kg]")

@@ -20,8 +20,8 @@ class QuaternionNotUnit(RobotRule):
     error.
 
     ## Why is this bad?
-    The numbers are in another order or from another source than intended. urdfdom, Pinocchio and urdfkit normalise the
-    quaternion, and read zero as no rotation; other readers scale the part or reject the robot.
+    The numbers are in the wrong order, or were not copied from a quaternion. urdfdom, Pinocchio and urdfkit normalise
+    the quaternion, and read zero as no rotation; other readers scale the part or reject the robot.
 
     ## Example
     ```xml

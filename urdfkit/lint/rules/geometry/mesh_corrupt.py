@@ -41,11 +41,15 @@ class MeshCorrupt(RobotRule):
     """A mesh file exists but contains no usable mesh.
 
     ## What it does
-    Checks for folders, empty mesh files, Git LFS pointers, files of another format than their suffix, truncated STL
-    and glTF files, invalid COLLADA files, files without triangles, meshes with all triangles in one point, and meshes
-    above 256 MiB or 5 million triangles. In STL, OBJ and COLLADA files, checks for vertices that are not finite, and in
-    OBJ files up to 2 MiB for faces with missing vertices. Files that the linter cannot read itself are read by trimesh
-    if it is installed.
+    Checks mesh files for these defects:
+
+    - a folder, an empty file or a Git LFS pointer in place of a mesh
+    - a format that differs from the suffix, truncated STL and glTF files, and invalid COLLADA files
+    - no triangles, or all triangles in one point
+    - more than 256 MiB or 5 million triangles
+    - vertices that are not finite (STL, OBJ and COLLADA), and faces with missing vertices (OBJ files up to 2 MiB)
+
+    If trimesh is installed, it reads the formats that the linter cannot read.
 
     ## Why is this bad?
     Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.

@@ -21,10 +21,9 @@ class SizeInOtherUnit(RobotRule):
     """A shape is far larger than the rest of the robot.
 
     ## What it does
-    Compares boxes, cylinders, spheres and capsules with the median of the distances between joints and the sizes of
-    the other shapes. Reports shapes of more than 50 times that median and more than 2 m. The root link is not
-    checked, because it may be a ground, and neither are links with a mass whose density is reported by I514. Meshes
-    are checked by G604.
+    Compares boxes, cylinders, spheres and capsules with the median of the distances between joints and the sizes of the
+    other shapes. Reports shapes of more than 50 times that median and more than 2 m. The root link is not checked,
+    because it may be a ground. Links whose density I514 reports are not checked either. G604 checks meshes.
 
     ## Why is this bad?
     The shape hides the robot and collides with everything. Usually its size was written in millimetres.

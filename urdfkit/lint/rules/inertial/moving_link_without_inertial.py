@@ -10,13 +10,15 @@ class MovingLinkWithoutInertial(RobotRule):
     """A link that moves has no mass or no inertia.
 
     ## What it does
-    Checks for links that move, because a joint moves them or the robot has no root link ``world``, where neither the
-    link nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
+    Checks for links that move, because a joint moves them or the robot has no root link ``world``, if neither the link
+    nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
     ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
-    warning. It is a note for a robot without any ``<inertial>``, ``<gazebo>``, ``<transmission>`` and
-    ``<ros2_control>``, which describes kinematics only. A robot without any ``<inertial>`` is reported once if joints
-    move its shapes, and with these targets also if it has joints that move or shapes; as a note if it has collision
-    shapes. Other robots describe kinematics only.
+    warning.
+
+    A robot without any ``<inertial>`` has a single finding if at least two of these conditions hold: joints move its
+    links, these links have shapes, and the target is a simulator. Otherwise the finding is a note, or missing if the
+    robot has no collision shape. Without such a target, it is also a note if the robot has no ``<gazebo>``,
+    ``<transmission>`` and ``<ros2_control>``, because such a robot describes only kinematics.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the

@@ -22,9 +22,9 @@ class ExecutableUnknown(RobotRule):
 
     ## What it does
     Compares the ``exec``, ``type`` or ``executable`` of nodes with the executables that CMakeLists.txt, setup.py or
-    setup.cfg of a package next to the robot's package define, and for catkin also with the files of the package. For
-    about fifty common released packages, the rule reports misspelt executables, and for some of these packages those
-    of the other version of ROS.
+    setup.cfg of a package next to the robot's package define; for catkin, also with the files of the package. The rule
+    also checks about fifty common released packages: it reports misspelt executables of all of them, and executables of
+    the other ROS version for some of them.
 
     ## Why is this bad?
     The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".
