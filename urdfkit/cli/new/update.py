@@ -246,7 +246,7 @@ def _is_confirmed(count: int, refused: str) -> bool:
     files = f"{count} file{'s' if count > 1 else ''}"
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
         if refused:
-            raise ResourceError(f"nothing was changed: {refused}; --yes saves {files} to merge from")
+            raise ResourceError(f"nothing was changed: {refused}; --yes saves {files}, from which you can merge")
         raise UsageError(
             f"{files} would change; nothing was changed: use --yes to change them, --diff to print the changes"
         )

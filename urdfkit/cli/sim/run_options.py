@@ -107,7 +107,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         "--trajectory",
         type=Path,
         metavar="FILE.csv",
-        help="move joints along the trajectory in a file of `urdfkit retime`, from its first positions on",
+        help="move joints along the trajectory in a file of `urdfkit retime`, starting at its first positions",
     )
     add("--fixed-base", action="store_true", help="fix the root link to the world")
     add("--until", metavar='"EXPR"', help='stop when the expression is true, e.g. "x > 1 or t > 3"')
