@@ -61,7 +61,7 @@ def wheels(filename: str, parameters: str = "", *, name: str = "drive") -> str:
 
 
 REFUSED = {
-    "massless": (arm(box()), ":9:9: link `arm` has no <inertial>, but joint `elbow` moves it (refused: strict)"),
+    "massless": (arm(box()), ":9:9: link `arm` has no <inertial>, but joint `elbow` moves it (rejected: strict)"),
     "no mass": (arm(body("0")), ":9:36: link `arm` has no mass, but joint `elbow` moves it"),
     "no inertia": (arm(body(ixx="0", iyy="0", izz="0")), ":10:5: link `arm` has no moment of inertia"),
     "negative mass": (arm(body("-1")), ":9:30: link `arm` has a mass of -1 kg; it must be positive"),

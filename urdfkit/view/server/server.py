@@ -237,7 +237,7 @@ class Server:
         if permission is None or permission in self.watchers_may or self.drive_lock.allows(client):
             self.inbox.put_action(action)
         else:
-            refusal = protocol.write("notice", text=f"{action} refused: {OTHER_DRIVES}", tone="error")
+            refusal = protocol.write("notice", text=f"{action} rejected: {OTHER_DRIVES}", tone="error")
             self._post(self.hub.send_to, client, refusal)
 
     def _receive_request(self, client: int, raw: protocol.RawRequest) -> None:

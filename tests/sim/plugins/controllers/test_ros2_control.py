@@ -443,7 +443,7 @@ def test_goals_are_cancelled_replaced_aborted_and_refused(make: Make) -> None:
     told = len(goals.states), len(goals.results)
     goals.send((1.0, [float("nan"), 0.0]), number=5)
     assert (len(goals.states), len(goals.results)) == told
-    assert any("refused a goal" in note for note in notes)
+    assert any("rejected a goal" in note for note in notes)
 
 
 def mock_arm(folder: Path, *files: tuple[str, str], gazebo: str = "") -> Path:

@@ -569,7 +569,7 @@ def test_without_any_file_it_says_so(tmp_path: Path) -> None:
         ("arm:\n  s: {type: joint_state_controller/JointStateController}\n",
          "arm.yaml:2:3", "`s` has no `publish_rate`, which it needs"),
         ("arm:\n  a: {type: position_controllers/JointPositionController, joint: shoulder}\n",
-         "arm.yaml:2:13", "joint `shoulder` takes effort, not position; check its <transmission> (refused: strict)"),
+         "arm.yaml:2:13", "joint `shoulder` takes effort, not position; check its <transmission> (rejected: strict)"),
         ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder}\n",
          "arm.yaml:2:3", "`a` has no `pid`"),
         ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder, pid: {p: x}}\n",

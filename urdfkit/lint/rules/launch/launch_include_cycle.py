@@ -33,7 +33,7 @@ class LaunchIncludeCycle(RobotRule):
     ```
 
     ## References
-    In the package of this example, the file is example.launch.
+    In this example, the file is named example.launch.
     """
 
     code = "L116"

@@ -18,7 +18,7 @@ class _RefusedError(SimulationError):
     """A robot that needs a repair is refused; perhaps because of a part inside the part that is left out."""
 
     def __init__(self, defect: str, position: Position | None, code: str | None) -> None:
-        super().__init__(f"{defect} (refused: strict)", position=position, code=code)
+        super().__init__(f"{defect} (rejected: strict)", position=position, code=code)
         self.defect = defect
 
 

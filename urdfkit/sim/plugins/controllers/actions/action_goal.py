@@ -93,7 +93,7 @@ class Action:
         try:
             self._pursue(wanted)
         except RefusalError as refusal:
-            self._controller.note(f"refused a goal: {refusal}")
+            self._controller.note(f"rejected a goal: {refusal}")
             self._close(goal, REJECTED, str(refusal), refusal.result, last=self.goal is None)
             return
         self.give_up("another goal has replaced it")
