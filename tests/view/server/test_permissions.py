@@ -42,7 +42,7 @@ def test_only_the_driver_pauses_and_resets(driven, server) -> None:
 def test_the_refused_page_gets_the_reason(driven, client, server, text) -> None:
     other = client.socket()
     other.send('{"type":"control","action":"reset"}')
-    assert text(other, "notice")["text"] == "reset refused: another page is driving; wait until it stops"
+    assert text(other, "notice")["text"] == "reset rejected: another page is driving; wait until it stops"
     assert server.inbox.take().actions == ()
 
 

@@ -56,7 +56,7 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(type="dvl", inside="")),
-        "sensors of type `dvl` are not simulated yet; sensor `lidar` is left",
+        "sensors of type `dvl` are not simulated yet; sensor `lidar` is ignored",
     ),
     (
         BLOCK.format(sensor(type="sonar", inside="")),
@@ -64,7 +64,7 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(type="infrared", inside="")),
-        "with infrared as the kind of radiation; sensor `lidar` is left",
+        "with infrared as the kind of radiation; sensor `lidar` is ignored",
     ),
     (BLOCK.format(sensor(LASER, inside=scan(10.7))), "<samples> is 10.7; it must be a whole number; sensor `lidar`"),
     (
