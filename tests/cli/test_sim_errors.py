@@ -170,7 +170,7 @@ REPAIRED = {
     "negative inertia": ("inertia", "I502", "and 0.01 kg·m² one is negative; simulated with"),
     "inertia of no body": ("inertia", "I503", ":10:5: the inertia of link `arm` is impossible: "),
     "inertia of no body at the root": ("inertia", "I503", ":3:5: the inertia of link `base` is"),
-    "no collision left, for want of its mesh": ("mesh", "G601", ": no file arm.stl; shape `base/collision/0` is ignored"),
+    "no collision left, for want of its mesh": ("mesh", "G601", ": no file arm.stl; shape `base/collision/0` is"),
     "size below zero": ("shape", "G611", ":10:109: the box of link `arm` has a size of -0.1 m; it must be positive; "),
 }
 """Defect → kind of its repair, code of the lint rule, and part of the message."""
