@@ -46,7 +46,7 @@ joy_node:
     polygons: [Stop]
     Stop:
       type: polygon
-      points: "[[0.3, 0.2], [0.3, -0.2], [0.0, 0.0]]"
+      points: "[[0.3, 0.2], [0.3, -0.2], [0.0, -0.2], [0.0, 0.2]]"
       action_type: stop
       min_points: 4
     observation_sources: [front]
@@ -148,7 +148,7 @@ BAD = [
     ("monitor", "out_topic: cmd_vel", "out_topic: cmd_vel_safe", "K980", 4, "no node reads the velocity commands on"),
     ("monitor", "type: polygon", "type: rectangle", "K971", 7, "unknown type `rectangle` of `Stop`"),
     ("monitor", "action_type: stop", "action_type: halt", "K971", 9, "unknown `action_type` `halt` of `Stop`"),
-    ("monitor", ", [0.0, 0.0]", "", "K971", 8, "`points` of `Stop` has 2 points; a polygon needs at least 3"),
+    ("monitor", ", [0.0, 0.2]", "", "K971", 8, "`points` of `Stop` has 3 points; collision_monitor needs at least 4"),
     ("monitor", "[Stop]", "[Stop, Slow]", "K971", 5, "`polygons` lists `Slow`, which has no section"),
     ("monitor", "[front]", "[laser]", "K971", 11, "`observation_sources` lists `laser`, which has no section"),
     ("monitor", "type: scan", "type: laser", "K971", 13, "unknown type `laser` of `front`"),

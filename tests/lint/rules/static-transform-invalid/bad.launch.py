@@ -24,4 +24,9 @@ def generate_launch_description():
             executable="static_transform_publisher",
             arguments=["--speed", "1", "--frame-id", "base_link", "--child-frame-id", "eye"],  # <!-- expect: L118 -->
         ),
+        Node(
+            package="tf2_ros",
+            executable="static_transform_publisher",
+            arguments=["--yaw", "1", "--qw", "1", "--frame-id", "base_link", "--child-frame-id", "a"],  # <!-- expect: L118 -->
+        ),
     ])

@@ -25,6 +25,9 @@ _LISTS = {
 """List of names → types of the sections with these names."""
 
 _ACTIONS = ("stop", "slowdown", "limit", "approach", "none")
+_LEAST = 4
+"""Number of points that a polygon needs (polygon.cpp: 7 values and 3 points are refused; migration guide, Iron.rst)."""
+
 _PAIR = r"\[\s*[-+.\deE]+\s*,\s*[-+.\deE]+\s*\]"
 
 
@@ -63,12 +66,12 @@ def _part(section: Node, name: str, types: tuple[str, ...], is_polygon: bool) ->
         pairs = re.findall(_PAIR, points.text)
         if not re.fullmatch(rf"\[\s*{_PAIR}(?:\s*,\s*{_PAIR})*\s*\]", points.text.strip()):
             yield points, f"`points` of `{name}` is not a list of points; write [[x1, y1], [x2, y2], …]"
-        elif len(pairs) < 3:
-            yield points, f"`points` of `{name}` has {len(pairs)} points; a polygon needs at least 3"
+        elif len(pairs) < _LEAST:
+            yield points, f"`points` of `{name}` has {len(pairs)} points; collision_monitor needs at least {_LEAST}"
     elif points is not None and points.kind == "list":
-        count = len(points.items) if all(item.kind == "text" for item in points.items) else 6
-        if count % 2 or count < 6:
-            yield points, f"`points` of `{name}` has {count} values; write x and y of at least 3 points"
+        count = len(points.items) if all(item.kind == "text" for item in points.items) else 2 * _LEAST
+        if count % 2 or count < 2 * _LEAST:
+            yield points, f"`points` of `{name}` has {count} values; write x and y of at least {_LEAST} points"
     radius = section.find("radius")
     if kind is not None and kind.text == "circle" and radius is None:
         yield kind, f"circle `{name}` has no `radius`"

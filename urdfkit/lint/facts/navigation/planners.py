@@ -1,6 +1,7 @@
 """Plugins of navigation: sections of planners that move_base does not load, separators, topics of costmaps.
 
-Sources: move_base (move_base.cpp, Noetic), navigation2 (plugin descriptions of Iron and Jazzy, behavior_server.cpp).
+Sources: move_base (move_base.cpp, Noetic), navigation2 (behavior_server.cpp), docs.nav2.org
+(migration/Iron.rst, "Standardization of Plugin Naming", pull request 4220).
 """
 
 from __future__ import annotations

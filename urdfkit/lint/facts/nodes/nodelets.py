@@ -1,6 +1,7 @@
 """Nodelets of ROS 1 whose manager no launch file starts.
 
-Source: nodelet (src/nodelet.cpp) of Noetic: ``nodelet load TYPE MANAGER`` waits for ``MANAGER/load_nodelet``.
+Source: ros/nodelet_core (nodelet/src/nodelet.cpp, Noetic): ``nodelet load TYPE MANAGER`` waits for the service
+``MANAGER/load_nodelet``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Arguments of static_transform_publisher: their number, their order, the rotation and the frames.
 
-Sources: tf and tf2_ros of Noetic (static_transform_publisher.cpp), tf2_ros of Humble to Rolling (README).
+Sources: tf and tf2_ros of Noetic (static_transform_publisher.cpp), tf2_ros of Humble to Rolling
+(static_transform_broadcaster_program.cpp).
 """
 
 from __future__ import annotations
@@ -25,7 +26,9 @@ if TYPE_CHECKING:
     Words = tuple[Named, ...]
 
 _FRAMES = ("--frame-id", "--child-frame-id")
-_NUMBERS = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", "--roll", "--pitch", "--yaw")
+_ANGLES = ("--roll", "--pitch", "--yaw")
+_QUATERNION = ("--qx", "--qy", "--qz", "--qw")
+_NUMBERS = ("--x", "--y", "--z", *_QUATERNION, *_ANGLES)
 _OF_OTHERS = r"map|odom|world|earth|utm|base|cam|imu|laser|lidar|scan|gps|gnss|rtk|marker|tag|vicon|mocap|optitrack|/"
 """Matches frames that nodes outside of the packages may publish."""
 
@@ -64,7 +67,17 @@ def _of_options(arguments: tuple[Named | None, ...], model: Model) -> Iterator[t
     if missing:
         yield options[0][1], f"`{missing[0]}` is missing"
         return
-    angles = [values.get(f"--{name}") for name in ("roll", "pitch", "yaw")]
+    mixed = (
+        [word for _, word in options if word.name in _ANGLES],
+        [word for _, word in options if word.name in _QUATERNION],
+    )
+    if all(mixed):
+        yield (
+            max((each[0] for each in mixed), key=lambda word: word.start),
+            "the rotation is given as Euler angles and as a quaternion; remove one",
+        )
+        return
+    angles = [values.get(name) for name in _ANGLES]
     yield from _angles(tuple(angle for angle in angles if angle is not None))
     yield from _frames(values["--frame-id"], values["--child-frame-id"], model)
 

@@ -1,10 +1,10 @@
 """Types, values and former names of the parameters of well-known nodes of ROS 2.
 
 Sources (Humble to Rolling): ros-navigation/navigation2 (collision_monitor_node.cpp, polygon.cpp, source.cpp,
-velocity_smoother.cpp, amcl_node.cpp, bt_navigator.cpp, controller_server.cpp, costmap_2d_ros.cpp, behavior_server.cpp),
-cra-ros-pkg/robot_localization (ros_filter.cpp), SteveMacenski/slam_toolbox (slam_toolbox_common.cpp),
-ros-teleop/twist_mux (twist_mux.cpp), ros2/teleop_twist_joy (teleop_twist_joy.cpp), ros-drivers/joystick_drivers
-(joy.cpp).
+velocity_smoother.cpp, amcl_node.cpp, bt_action_server_impl.hpp, controller_server.cpp, costmap_2d_ros.cpp,
+behavior_server.cpp), cra-ros-pkg/robot_localization (ros_filter.cpp), SteveMacenski/slam_toolbox
+(slam_toolbox_common.cpp), ros-teleop/twist_mux (twist_mux.cpp), ros2/teleop_twist_joy (teleop_twist_joy.cpp),
+ros-drivers/joystick_drivers (joy.cpp).
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ initial_state: list double 15
 
 slam_toolbox
 debug_logging enable_interactive_mode use_scan_matching use_scan_barycenter do_loop_closing use_map_saver: bool
-use_response_expansion map_start_at_dock restamp_tf position_covariance_scale_enabled: bool
+use_response_expansion map_start_at_dock restamp_tf: bool
+position_covariance_scale yaw_covariance_scale: double
 transform_publish_period map_update_interval resolution min_laser_range max_laser_range minimum_time_interval: double
 transform_timeout tf_buffer_duration minimum_travel_distance minimum_travel_heading: double
 scan_buffer_maximum_scan_distance link_match_minimum_response_fine link_scan_maximum_distance: double
@@ -63,9 +64,9 @@ loop_match_minimum_response_fine correlation_search_space_dimension correlation_
 correlation_search_space_smear_deviation loop_search_space_dimension loop_search_space_resolution: double
 loop_search_space_smear_deviation distance_variance_penalty angle_variance_penalty fine_search_angle_offset: double
 coarse_search_angle_offset coarse_angle_resolution minimum_angle_penalty minimum_distance_penalty: double
-throttle_scans scan_buffer_size loop_match_minimum_chain_size stack_size_to_use: int
+throttle_scans scan_queue_size scan_buffer_size loop_match_minimum_chain_size stack_size_to_use: int
 map_start_pose: list double 3
-odom_frame map_frame base_frame scan_topic map_file_name: text
+odom_frame map_frame base_frame scan_topic map_name map_file_name: text
 
 collision_monitor
 base_frame_id odom_frame_id cmd_vel_in_topic cmd_vel_out_topic state_topic: text

@@ -30,7 +30,7 @@ _NAMES = {
     "joint_state_publisher_gui": "joint_states robot_description",
     "joy": "joy joy/set_feedback diagnostics",
     "nav2_velocity_smoother": "cmd_vel cmd_vel_smoothed odom",
-    "nmea_navsat_driver": "fix vel heading time_reference nmea_sentence extend_fix",
+    "nmea_navsat_driver": "fix vel heading time_reference nmea_sentence",
     **dict.fromkeys(
         ("robot_localization/ekf_node", "robot_localization/ukf_node"),
         "odometry/filtered accel/filtered set_pose cmd_vel enable toggle set_state reset diagnostics",
