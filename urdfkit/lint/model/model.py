@@ -97,6 +97,12 @@ class Model:
         return any(fault.kind in _DROPPING and fault.details.get("cause") != "unbound prefix" for fault in faults)
 
     @cached_property
+    def is_damaged(self) -> bool:
+        """Whether defined elements may lack parts; missing files and macros lack elements of their own only."""
+        kept = _DROPPING - {"package-not-found", "include-not-found", "undefined-macro"}
+        return not self.robot.links or any(fault.kind in kept for fault in self.expanded.faults)
+
+    @cached_property
     def encoding_faults(self) -> tuple[Fault, ...]:
         """One fault for each otherwise well-formed file that is not UTF-8."""
         broken = {fault.position.file for fault in self.expanded.faults if fault.kind == "xml"}

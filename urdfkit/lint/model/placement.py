@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import hypot, sqrt
 
 from urdfkit.description.urdf.geometry import (
@@ -132,6 +132,23 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
     else:
         low, high = box_around_all([box_around(geometry, pose) for geometry, pose in shapes])
     return Extent(low, high, tuple(shapes), tuple(volumes))
+
+
+def solid(link: Link, extents: Mapping[str, Extent]) -> tuple[Extent | None, bool]:
+    """Return the extent of a link, and whether it contains the visual shapes.
+
+    If a mesh among them cannot be read, the extent is that of the collision shapes; None if they have a mesh too.
+
+    Args:
+        link: the link.
+        extents: the known extents of all shapes of the links.
+    """
+    found = extents.get(link.name)
+    shapes = [shape.geometry for shape in link.collisions]
+    is_hidden = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
+    if found is not None or not is_hidden or not shapes or any(isinstance(shape, Mesh) for shape in shapes):
+        return found, bool(link.visuals)
+    return extent(Link(link.name, link.inertial, (), link.collisions, link.element), lambda mesh: None), False
 
 
 def _is_impossible(shape: Geometry) -> bool:

@@ -6,7 +6,7 @@ from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
-from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.model.placement import shapes_of, solid
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_RATIO = 0.05
@@ -74,10 +74,10 @@ class InertiaTooSmall(RobotRule):
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or mass is None or mass <= 0.0:
                 continue
-            extent = model.extents.get(link.name)
+            extent, has_visuals = solid(link, model.extents)
             if extent is None or extent.outside(link.inertial.origin.xyz) > 0.0:
                 continue  # Reported by I513.
-            if not link.visuals and mass < MIN_MASS:
+            if not has_visuals and mass < MIN_MASS:
                 continue
             reach = extent.radius(link.inertial.origin.xyz)
             if reach > MAX_REACH and any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):

@@ -95,7 +95,7 @@ class TwinsDiffer(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each pair of links with different masses, else with different sizes."""
-        if model.is_incomplete:
+        if model.is_damaged:
             return
         for pair in twins(model):
             links = links_of(pair, model)

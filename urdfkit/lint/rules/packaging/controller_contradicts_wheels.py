@@ -69,7 +69,7 @@ class ControllerContradictsWheels(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter of a drive controller that contradicts the robot."""
-        if model.is_incomplete:
+        if model.is_damaged:
             return
         from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels
 

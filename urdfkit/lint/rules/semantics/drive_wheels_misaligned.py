@@ -92,7 +92,7 @@ class DriveWheelsMisaligned(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the worst defect of each pair of wheels."""
-        if not model.robot.gazebo or model.is_incomplete:
+        if not model.robot.gazebo or model.is_damaged:
             return
         for drive in drives(model):
             for left, right in zip(drive.left, drive.right, strict=True):

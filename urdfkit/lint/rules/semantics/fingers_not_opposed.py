@@ -79,7 +79,7 @@ class FingersNotOpposed(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each pair of fingers that does not open and close."""
-        if model.is_incomplete:
+        if model.is_damaged:
             return
         for first, second in _pairs(model):
             found = _defect(first, second, model)

@@ -90,7 +90,7 @@ class TwinsMisplaced(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that does not match its counterpart, at most one for each joint."""
-        if model.is_incomplete:
+        if model.is_damaged:
             return
         defects = [(pair, defect) for pair in twins(model) if (defect := _defect(pair, model)) is not None]
         counts = Counter(joint.name for pair, _ in defects for joint in (pair.first, pair.second))
