@@ -1,0 +1,175 @@
+"""Cameras and lidars whose view is blocked by the robot: the sensor is inside of a body, or looks at one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import cos, dist, inf, pi, sin, sqrt
+
+from urdfkit.description.urdf.geometry import rotate
+from urdfkit.description.urdf.robot import Box, Cylinder, GazeboBlock, Geometry, Pose, SensorTag, Sphere, Vector
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number, numbers
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.placement import Frame
+
+_LIDARS = ("ray", "gpu_ray", "lidar", "gpu_lidar")
+_CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "wideanglecamera", "wide_angle_camera", "multicamera")
+
+_HOUSING = 0.25
+"""Largest diagonal of a shape around a sensor that is its housing [m]."""
+
+_INSIDE = 0.01
+"""Smallest depth below the surface of a body at which a sensor is inside of it [m]."""
+
+_PLACED = 1e-6
+"""Smallest distance of a sensor from the centre of a shape [m]; parts at one place have no origins yet."""
+
+_RAYS = 37
+_BLOCKED = 0.95
+"""Number of directions of a lidar that are checked, and the part of them that a blocked lidar does not see beyond."""
+
+_TILT = 0.15
+"""Angle between the axis of a camera and the further directions that are checked [rad]."""
+
+_NEAR = 1.0
+"""Largest distance of a body that blocks a sensor [m]."""
+
+Solid = tuple[str, Geometry, Frame]
+"""Link, shape and the pose of the shape in the root link."""
+
+
+def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]]:
+    """Yield the sensors that see nothing but the robot, with the message."""
+    groups: dict[str, str] = {}
+    for block in model.robot.gazebo:
+        for sensor in block.sensors:
+            frame = model.frames.get(block.reference or "")
+            kind = sensor.type or ""
+            if frame is None or kind not in (*_LIDARS, *_CAMERAS):
+                continue
+            groups = groups or _rigid_groups(model)
+            pose = _pose(sensor.element)
+            if pose is None or model.is_unresolved(sensor.element):
+                continue
+            eye = frame.moved(pose)
+            solids = [
+                solid
+                for solid in _solids(model)
+                if solid[0] != block.reference
+                and groups.get(solid[0]) == groups.get(block.reference or "")
+                and dist(solid[2].translation, eye.translation) > _PLACED
+            ]
+            around = next((name for name, shape, at in solids if _depth(shape, _local(at, eye)) > _INSIDE), None)
+            if around is not None:
+                yield block, sensor, f"sensor `{sensor.name}` is inside of the shape of link `{around}`"
+                continue
+            rays = _fan(sensor.element) if kind in _LIDARS else [(0.0, 0.0), *_AROUND]
+            hit = [_first(solids, eye, *angles) for angles in rays]
+            seen = [name for name in hit if name is not None]
+            if len(seen) >= _BLOCKED * len(rays):
+                yield block, sensor, f"sensor `{sensor.name}` looks at the shape of link `{seen[0]}` only"
+
+
+_AROUND = ((_TILT, 0.0), (-_TILT, 0.0), (0.0, _TILT), (0.0, -_TILT))
+"""Yaw and pitch of further directions of a camera."""
+
+
+def _rigid_groups(model: Model) -> dict[str, str]:
+    """Return link → the highest link that it is fixed to."""
+    fixed = {joint.child: joint.parent for joint in model.robot.joints if joint.type == "fixed"}
+    found = {}
+    for link in model.robot.links:
+        name, seen = link.name, {link.name}
+        while (parent := fixed.get(name)) is not None and parent not in seen:
+            name = parent
+            seen.add(name)
+        found[link.name] = name
+    return found
+
+
+def _solids(model: Model) -> Iterator[Solid]:
+    """Yield the boxes, cylinders and spheres that are large enough to block a sensor."""
+    for link in model.robot.links:
+        frame = model.frames.get(link.name)
+        for shape in (link.visuals or link.collisions) if frame is not None else ():
+            geometry = shape.geometry
+            if frame is not None and isinstance(geometry, (Box, Cylinder, Sphere)) and _diagonal(geometry) > _HOUSING:
+                yield link.name, geometry, frame.moved(shape.origin)
+
+
+def _diagonal(shape: Geometry) -> float:
+    half = _half(shape)
+    return 2.0 * sqrt(sum(part * part for part in half))
+
+
+def _half(shape: Geometry) -> Vector:
+    """Return half the sizes of the box around a shape, in its own frame [m]."""
+    if isinstance(shape, Box):
+        x, y, z = shape.size
+        return x / 2.0, y / 2.0, z / 2.0
+    if isinstance(shape, Cylinder):
+        return shape.radius, shape.radius, shape.length / 2.0
+    radius = shape.radius if isinstance(shape, Sphere) else 0.0
+    return radius, radius, radius
+
+
+def _pose(sensor: Element) -> Pose | None:
+    """Return the pose of a sensor in its link; None if it is malformed or relative to another frame."""
+    element = sensor.find("pose")
+    if element is None:
+        return Pose()
+    values = numbers(element.text or "0 0 0 0 0 0")
+    if values is None or len(values) != 6 or element.attributes:
+        return None
+    return Pose((values[0], values[1], values[2]), (values[3], values[4], values[5]))
+
+
+def _fan(sensor: Element) -> list[tuple[float, float]]:
+    """Return the directions of a lidar: yaw, and zero pitch."""
+    horizontal = next((each for each in sensor.walk() if each.tag == "horizontal"), None)
+    limits = [horizontal.find(tag) if horizontal is not None else None for tag in ("min_angle", "max_angle")]
+    low, high = ((number(each.text or "") if each is not None else None) for each in limits)
+    first, last = (-pi, pi) if low is None or high is None else (low, high)
+    return [(first + (last - first) * step / (_RAYS - 1), 0.0) for step in range(_RAYS)]
+
+
+def _first(solids: list[Solid], eye: Frame, yaw: float, pitch: float) -> str | None:
+    """Return the link that the ray in a direction of the sensor meets first; None if it meets none nearby."""
+    direction = rotate(eye.rotation, (cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), -sin(pitch)))
+    found = [(_distance(shape, at, eye.translation, direction), name) for name, shape, at in solids]
+    distance, name = min(found, default=(inf, ""))
+    return name if distance < _NEAR else None
+
+
+def _local(at: Frame, eye: Frame) -> Vector:
+    offset = [a - b for a, b in zip(eye.translation, at.translation, strict=True)]
+    return _turned_back(at, (offset[0], offset[1], offset[2]))
+
+
+def _turned_back(at: Frame, vector: Vector) -> Vector:
+    x, y, z = (sum(at.rotation[i][k] * vector[i] for i in range(3)) for k in range(3))
+    return x, y, z
+
+
+def _depth(shape: Geometry, point: Vector) -> float:
+    """Return the depth of a point below the surface of a shape [m]; negative outside."""
+    x, y, z = point
+    if isinstance(shape, Sphere):
+        return shape.radius - sqrt(x * x + y * y + z * z)
+    if isinstance(shape, Cylinder):
+        return min(shape.radius - sqrt(x * x + y * y), shape.length / 2.0 - abs(z))
+    return min(half - abs(part) for half, part in zip(_half(shape), point, strict=True))
+
+
+def _distance(shape: Geometry, at: Frame, start: Vector, direction: Vector) -> float:
+    """Return the distance along a ray to the box around a shape [m]; infinite if the ray misses it or starts inside."""
+    point, heading = _local(at, Frame(translation=start)), _turned_back(at, direction)
+    enter, leave = 0.0, inf
+    for place, part, half in zip(point, heading, _half(shape), strict=True):
+        if abs(part) < 1e-12:
+            if abs(place) > half:
+                return inf
+            continue
+        near, far = sorted(((-half - place) / part, (half - place) / part))
+        enter, leave = max(enter, near), min(leave, far)
+    return enter if 0.0 < enter < leave else inf

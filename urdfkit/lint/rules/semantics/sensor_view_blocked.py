@@ -1,0 +1,64 @@
+"""S915 sensor-view-blocked."""
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+
+class SensorViewBlocked(RobotRule):
+    """A camera or lidar sees nothing but the robot.
+
+    ## What it does
+    Checks for cameras and lidars of Gazebo inside of a box, cylinder or sphere of another link, and for those whose
+    view ends at such a shape within a metre. Only links that are fixed to the link of the sensor, and shapes with a
+    diagonal of more than 0.25 m are compared: smaller ones are housings of the sensor.
+
+    ## Why is this bad?
+    The image is dark, or the scan has the same distances everywhere. Usually a sign or the height of the origin is
+    wrong, or the sensor at the rear is not turned.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"><visual><geometry><box size="0.4 0.3 0.2"/></geometry></visual></link>
+      <link name="lidar"/>
+      <joint name="lidar_joint" type="fixed">
+        <parent link="base"/><child link="lidar"/><origin xyz="0.1 0 0.05"/>
+      </joint>
+      <gazebo reference="lidar">
+        <sensor name="lidar" type="ray"/>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"><visual><geometry><box size="0.4 0.3 0.2"/></geometry></visual></link>
+      <link name="lidar"/>
+      <joint name="lidar_joint" type="fixed">
+        <parent link="base"/><child link="lidar"/><origin xyz="0.1 0 0.15"/>
+      </joint>
+      <gazebo reference="lidar">
+        <sensor name="lidar" type="ray"/>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "S915"
+    name = "sensor-view-blocked"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each sensor with a blocked view, at the joint that places it."""
+        from urdfkit.lint.facts.gazebo.blocked_sensors import blocked_sensors
+
+        parents = {joint.child: joint for joint in model.robot.joints}
+        for block, sensor, message in blocked_sensors(model):
+            joint = parents.get(block.reference)
+            origin = joint.element.find("origin") if joint is not None else None
+            if joint is None or origin is None or sensor.element.find("pose") is not None:
+                yield self.at(model, sensor.element.find("pose") or sensor.element, message, link=block.reference)
+                continue
+            help = f"check the origin of joint `{joint.name}`"
+            yield self.at(model, origin, message, link=block.reference, joint=joint.name, help=help)
