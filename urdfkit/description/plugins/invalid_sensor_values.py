@@ -51,6 +51,12 @@ WIDE = ("wideanglecamera", "wide_angle_camera")
 
 def senseless_numbers(sensor: Element) -> Senseless:
     """Yield values that are not numbers, negative rates, angles above a full turn, and unknown types of noise."""
+    wide = [child for child in sensor.children if child.tag in ("min_angle", "max_angle") and _is_wide(child)]
+    if wide:
+        numbers = " and ".join(f"{_value(child.text):g}" for child in wide)
+        names = " and ".join(f"<{child.tag}>" for child in wide)
+        verb = "is" if len(wide) == 1 else "are"
+        yield wide[0], f"{names} {verb} {numbers} rad, more than a full turn: angles are in radians"
     for child in sensor.children:
         if child.tag == "plugin":
             continue
@@ -64,8 +70,10 @@ def senseless_numbers(sensor: Element) -> Senseless:
             yield child, f"<{child.tag}> is `{child.text}`, not a number"
         elif child.tag == "update_rate" and value < 0.0:
             yield child, f"<update_rate> is {value:g} Hz; it must not be negative; zero updates at every step"
-        elif child.tag in ("min_angle", "max_angle") and abs(value) > _MAX_ANGLE:
-            yield child, f"<{child.tag}> is {value:g} rad, more than a full turn: angles are in radians"
+
+
+def _is_wide(angle: Element) -> bool:
+    return abs(_value(angle.text)) > _MAX_ANGLE
 
 
 def _unknown_noise(noise: Element) -> tuple[Element, str] | None:

@@ -1,5 +1,7 @@
 """E011 wrong-arity."""
 
+import re
+
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -54,4 +56,5 @@ class WrongArity(RobotRule):
             if problem.attribute == "scale" and len(words) == 1:
                 value = " ".join(words * 3)
                 fix = new_value(model, problem.element, "scale", value, "unsafe", "Apply the scale to all three axes")
-            yield self.at(model, problem.element, problem.message, attribute=problem.attribute, fix=fix)
+            names = tuple(re.findall(r"\b(?:joint|link) `([^`]+)`", problem.message))
+            yield self.at(model, problem.element, problem.message, attribute=problem.attribute, fix=fix, names=names)

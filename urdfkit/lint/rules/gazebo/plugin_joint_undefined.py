@@ -6,6 +6,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.plugins import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -77,9 +78,10 @@ class PluginJointUndefined(RobotRule):
             for plugin in (*block.plugins, *(plugin for sensor in block.sensors for plugin in sensor.plugins)):
                 spec = match(plugin)
                 if spec is not None:
+                    fixed: set[Position] = set()
                     for parameter in spec.parameters:
                         if parameter.names == "joint":
-                            yield from self._check(model, plugin, parameter)
+                            yield from self._check(model, plugin, parameter, fixed)
                     yield from self._repeated(model, plugin, spec)
 
     def _repeated(self, model: Model, plugin: Plugin, spec: PluginSpec) -> Findings:
@@ -91,13 +93,16 @@ class PluginJointUndefined(RobotRule):
         for parameter in spec.parameters:
             kind = "steering" if "steering" in parameter.tag else parameter.meaning
             for text, element in values(plugin, parameter) if parameter.names == "joint" else ():
-                if text not in joints or parameter.separator or element is plugin.element:
+                if text not in joints or element is plugin.element:
                     continue
-                if seen.setdefault((kind, text), element) is not element:
+                is_repeated = (kind, text) in seen and (seen[kind, text] is not element or bool(parameter.separator))
+                seen.setdefault((kind, text), element)
+                if is_repeated:
                     message = f"<{parameter.tag}> names joint `{text}` a second time"
                     yield self.at(model, element, message, joint=text, help="name each joint once", severity="warning")
 
-    def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Findings:
+    def _check(self, model: Model, plugin: Plugin, parameter: Parameter, fixed: set[Position]) -> Findings:
+        """Yield the findings for one parameter; of fixed joints that one macro defines, only the first."""
         from urdfkit.description.plugins import values
         from urdfkit.errors import did_you_mean, nearest
         from urdfkit.lint.fix_builders import new_text
@@ -110,10 +115,13 @@ class PluginJointUndefined(RobotRule):
                 and joints[text].type == "fixed"
                 and joints[text].element.find("axis") is not None
                 and parameter.meaning not in _MAY_BE_FIXED
+                and joints[text].element.origin.position not in fixed
             ):
+                fixed.add(joints[text].element.origin.position)
                 message = f"<{parameter.tag}> names the fixed joint `{text}`, which Gazebo removes"
                 help = "set the type of the joint; a wheel is continuous"
-                yield self.at(model, element, message, joint=text, help=help)
+                alike = [one.name for one in joints.values() if one.element.origin.position in fixed]
+                yield self.at(model, element, message, joint=text, help=help, kind="fixed", names=tuple(alike))
             if text in joints or "::" in text or "$" in text or model.is_unresolved(element):
                 continue
             message = f"<{parameter.tag}> names the undefined joint `{text}`"
@@ -125,7 +133,7 @@ class PluginJointUndefined(RobotRule):
                 near = nearest(text.strip("\"'"), joints, cutoff=0.7)
                 help = Suggestion(near, before="") or f"joints of the robot: {', '.join(joints) or 'none'}"
                 fix = new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near and is_single else None
-            finding = self.at(model, element, message, joint=text, help=help, fix=fix)
+            finding = self.at(model, element, message, joint=text, help=help, fix=fix, kind="undefined")
             yield from (
                 unless_masked(model, text, near, finding) if text not in model.robot.joint_by_name else (finding,)
             )

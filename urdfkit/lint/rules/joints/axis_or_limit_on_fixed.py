@@ -1,5 +1,6 @@
 """J418 axis-or-limit-on-fixed."""
 
+from urdfkit.lint.finding import Fix
 from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -53,13 +54,20 @@ class AxisOrLimitOnFixed(RobotRule):
         for joint in model.robot.joints:
             if joint.type != "fixed":
                 continue
-            for child in joint.element.children:
-                if child.tag == "limit" or (child.tag == "axis" and any(joint.axis)):
-                    yield self.at(
-                        model,
-                        child,
-                        f"<{child.tag}> has no effect on fixed joint `{joint.name}`",
-                        joint=joint.name,
-                        help=f"remove <{child.tag}>, or change the joint type if the joint should move",
-                        fix=without_element(model, child, "safe", f"Remove <{child.tag}>"),
-                    )
+            idle = [
+                child
+                for child in joint.element.children
+                if child.tag == "limit" or (child.tag == "axis" and any(joint.axis))
+            ]
+            if idle:
+                names = " and ".join(f"<{child.tag}>" for child in idle)
+                fixes = [without_element(model, child, "safe", f"Remove {names}") for child in idle]
+                edits = tuple(edit for fix in fixes if fix is not None for edit in fix.edits)
+                yield self.at(
+                    model,
+                    idle[0],
+                    f"{names} {'has' if len(idle) == 1 else 'have'} no effect on fixed joint `{joint.name}`",
+                    joint=joint.name,
+                    help=f"remove {names}, or change the joint type if the joint should move",
+                    fix=Fix("safe", f"Remove {names}", edits) if None not in fixes else None,
+                )
