@@ -203,6 +203,7 @@ def misplaced(
             continue
         is_share = re.fullmatch(r"share(/\w+)?", place) is not None
         is_elsewhere = is_share or place.partition("/")[0] in (
+            files.name,
             "lib",
             "bin",
             "include",

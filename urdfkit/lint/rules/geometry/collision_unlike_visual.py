@@ -15,6 +15,9 @@ _UNLIKE = 1.6
 _TIMES = 3.0
 """Ratio of the sizes of collision and visual shape that a simplification does not explain."""
 
+_WHEEL = 0.1
+"""Largest relative difference of the radii of a wheel."""
+
 _DISTANCE = 0.4
 """Distance of equal shapes, as a part of their largest size."""
 
@@ -25,6 +28,7 @@ _ROUND = 0.03
 """Largest relative difference of two sizes of a mesh that is a disc."""
 
 Corners = tuple[Vector, Vector]
+Shapes = tuple[tuple[Geometry, Pose], ...]
 
 
 class CollisionUnlikeVisual(RobotRule):
@@ -33,7 +37,8 @@ class CollisionUnlikeVisual(RobotRule):
     ## What it does
     Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in
     different poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision
-    shape that is three times larger or smaller in all directions than a visual shape of the same kind.
+    shape that is three times larger or smaller in all directions than a visual shape of the same kind, and wheels with
+    two radii.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was
@@ -80,6 +85,7 @@ class CollisionUnlikeVisual(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each link whose collision shapes contradict its visual shapes."""
+        wheels = {joint.child for joint in model.robot.joints if joint.type == "continuous"}
         for link in model.robot.links:
             extent, count = model.extents.get(link.name), len(link.visuals)
             if extent is None or not count or not link.collisions or len(extent.shapes) != count + len(link.collisions):
@@ -87,7 +93,8 @@ class CollisionUnlikeVisual(RobotRule):
             visuals, collisions = extent.shapes[:count], extent.shapes[count:]
             if visuals == collisions:
                 continue
-            found = _defect(visuals, collisions)
+            found = _of_wheel(visuals, collisions) if link.name in wheels else None
+            found = found or _defect(visuals, collisions)
             if found is not None:
                 message, help, part = found
                 shape = link.collisions[0].element
@@ -97,7 +104,18 @@ class CollisionUnlikeVisual(RobotRule):
                 )
 
 
-Shapes = tuple[tuple[Geometry, Pose], ...]
+def _of_wheel(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
+    """Return the defect of a wheel that is a cylinder twice, with the same width and pose; None if the radii agree."""
+    if len(visuals) != 1 or len(collisions) != 1 or visuals[0][1] != collisions[0][1]:
+        return None
+    (visual, _), (collision, _) = visuals[0], collisions[0]
+    if not (isinstance(visual, Cylinder) and isinstance(collision, Cylinder)) or visual.length != collision.length:
+        return None
+    low, high = sorted((visual.radius, collision.radius))
+    if not 0.0 < low < (1.0 - _WHEEL) * high:
+        return None
+    message = f"has a radius of {collision.radius:.3g} m, the visual shape of {visual.radius:.3g} m"
+    return message, "write the radius of the wheel in both", "geometry"
 
 
 def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:

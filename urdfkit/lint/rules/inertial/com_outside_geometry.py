@@ -1,5 +1,9 @@
 """I513 com-outside-geometry."""
 
+from math import dist
+
+from urdfkit.description.urdf.robot import Link
+from urdfkit.lint.model.placement import Extent
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 0.1
@@ -11,6 +15,12 @@ MIN_TOLERANCE = 0.005
 TOLERANCE_WITHOUT_VISUALS = 1.0
 """Tolerance for links without visuals, whose collision shapes often cover only a part of the body."""
 
+OFF_CENTRE = 0.1
+"""Distance of the centre of mass from the centre of the shape, relative to the diagonal of the bounding box."""
+
+SAME = 0.02
+"""Largest relative difference of moments of inertia that belong to a shape."""
+
 MIN_MASS = 0.01
 """[kg] Smaller masses of links without visuals are placeholders."""
 
@@ -20,8 +30,10 @@ class ComOutsideGeometry(RobotRule):
 
     ## What it does
     Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link.
-    Collision shapes alone often cover only a part of the body, so for links without visuals only a distance of more
-    than the diagonal of the box is reported. Links with an unreadable mesh are not checked.
+    A centre of mass inside the shapes is reported if the inertia is that of the only shape about its centre, and the
+    centre of mass is elsewhere. Collision shapes alone often cover only a part of the body, so for links without
+    visuals only a distance of more than the diagonal of the box is reported. Links with an unreadable mesh are not
+    checked.
 
     ## Why is this bad?
     The robot tips over, or swings as if its mass hung next to it. The usual cause is an origin of the shape that was
@@ -78,6 +90,7 @@ class ComOutsideGeometry(RobotRule):
             if not link.visuals and inertial.mass < MIN_MASS:
                 continue
             distance = extent.outside(inertial.origin.xyz)
+            yield from self._off_centre(model, link, extent)
             if distance > max(
                 (TOLERANCE if link.visuals else TOLERANCE_WITHOUT_VISUALS) * extent.diagonal, MIN_TOLERANCE
             ):
@@ -92,3 +105,30 @@ class ComOutsideGeometry(RobotRule):
                     if any(inertial.origin.xyz)
                     else "copy the <origin> of the shape to <inertial>",
                 )
+
+    def _off_centre(self, model: Model, link: Link, extent: Extent) -> Findings:
+        """Yield a finding for a centre of mass away from the centre of the shape to which the inertia belongs."""
+        from urdfkit.lint.facts.inertia.inertia_from_shapes import tensor_of
+
+        inertial, (shape, pose) = link.inertial, extent.shapes[0]
+        if inertial is None or inertial.inertia is None or any(each != (shape, pose) for each in extent.shapes):
+            return
+        origin, distance = inertial.element.find("origin"), dist(inertial.origin.xyz, pose.xyz)
+        is_outside = extent.outside(inertial.origin.xyz) > max(TOLERANCE * extent.diagonal, MIN_TOLERANCE)
+        if is_outside or distance <= max(OFF_CENTRE * extent.diagonal, MIN_TOLERANCE) or not inertial.mass:
+            return
+        computed = tensor_of(link, extent, inertial.mass)
+        written = [getattr(inertial.inertia, name) for name in ("ixx", "iyy", "izz")]
+        if computed is None or not all(
+            abs(a - b) <= SAME * max(abs(b), 1e-12)
+            for a, b in zip(written, (computed[0], computed[3], computed[5]), strict=True)
+        ):
+            return
+        yield self.at(
+            model,
+            origin or inertial.element,
+            f"centre of mass of link `{link.name}` is {distance:.3g} m from the centre of the shape with this inertia",
+            attribute="xyz" if origin is not None else None,
+            link=link.name,
+            help="copy the <origin> of the shape to <inertial>",
+        )

@@ -1,6 +1,6 @@
 """I518 twins-differ."""
 
-from urdfkit.description.urdf.robot import Link
+from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.twins import Twins, decimal_slip, links_of, twins
 from urdfkit.lint.model.placement import shapes_of
@@ -16,7 +16,8 @@ class TwinsDiffer(RobotRule):
     ## What it does
     Compares the child links of joints with one parent whose names differ in a side (``left`` and ``right``) or an
     end (``front`` and ``rear``) only. Reports masses and sizes of parts on two sides that differ by a factor of
-    two, and those of parts at two ends that differ by a factor of 10, 100 or 1000.
+    two, and those of parts at two ends that differ by a factor of 10, 100 or 1000. Meshes are also compared by their
+    ``scale``.
 
     ## Why is this bad?
     The robot leans, drifts, or one of its wheels is too small to reach the ground. The usual cause is a wrong
@@ -104,23 +105,31 @@ class TwinsDiffer(RobotRule):
             masses = [link.inertial.mass or 0.0 if link.inertial is not None else 0.0 for link in links]
             extents = [model.extents.get(link.name) for link in links]
             sizes = [extent.diagonal if extent is not None else 0.0 for extent in extents]
-            for values, what, unit in ((masses, "mass", "kg"), (sizes, "size", "m")):
+            scales = [_scale(link) for link in links]
+            for values, what, unit in ((masses, "mass", "kg"), (sizes, "size", "m"), (scales, "scale", "")):
                 if min(values) <= 0.0 or not _differ(pair, values):
                     continue
                 wrong = links[values.index(max(values))]
                 element = _place(wrong, what)
-                x, y = (f"{value:.3g} {unit}" for value in values)
-                message = f"`{links[0].name}` and `{links[1].name}` differ in {what}: {x} and {y}"
+                x, y = (f"{value:.3g} {unit}".strip() for value in values)
+                what_differs = "the scale of their meshes" if what == "scale" else what
+                message = f"`{links[0].name}` and `{links[1].name}` differ in {what_differs}: {x} and {y}"
                 help = "check the decimal points and units of both"
                 attribute = "value" if what == "mass" else None
                 yield self.at(model, element, message, attribute=attribute, link=wrong.name, help=help)
                 break
 
 
+def _scale(link: Link) -> float:
+    """Return the scale of the only mesh among the visual shapes of a link; 0 without one."""
+    meshes = [shape.geometry for shape in link.visuals if isinstance(shape.geometry, Mesh)]
+    return max(abs(part) for part in meshes[0].scale) if len(meshes) == 1 else 0.0
+
+
 def _place(link: Link, what: str) -> Element:
     """Return the element with the mass or the shape of a link."""
     found = link.inertial.element.find("mass") if what == "mass" and link.inertial is not None else None
-    if what == "size":
+    if what in ("size", "scale"):
         found = next((shape.element.find("geometry") for shape in shapes_of(link)), None)
     return found or link.element
 

@@ -12,6 +12,9 @@ _MIN_DISTANCE = 10.0
 _TIMES = 20.0
 """Ratio of the distance to the largest link above which the parts of the robot cannot be connected."""
 
+_TIMES_OTHERS = 20.0
+"""Ratio of the distance to that of all other joints that stands out if no shape is known."""
+
 _TIMES_ITS_LINKS = 4.0
 """Ratio of a gap to the sizes of both links of a joint above which a part is missing between them."""
 
@@ -50,6 +53,8 @@ class OriginTooFar(RobotRule):
 
     A moving joint outside the bounding box of its parent link is reported if all other moving joints are in or at the
     boxes of theirs. Joints of a root link without shapes are not checked, because they place the robot in the world.
+
+    If no shape is known, because the meshes are missing, the distance is compared with those of all other joints.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,
@@ -99,7 +104,10 @@ class OriginTooFar(RobotRule):
         zero = (0.0, 0.0, 0.0)
         distances = [(joint, dist(joint.origin.xyz, zero)) for joint in model.robot.joints]
         largest = max((distance for _, distance in distances), default=0.0)
-        if largest < _MIN_GAP or not model.extents:
+        if largest < _MIN_GAP:
+            return
+        if not model.extents:
+            yield from self._among_joints(model, distances)
             return
         size = max(extent.diagonal for extent in model.extents.values())
         children = {joint.child for joint in model.robot.joints}
@@ -129,6 +137,20 @@ class OriginTooFar(RobotRule):
                     help = "check the decimal points and units of the origin"
             if message:
                 yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+    def _among_joints(self, model: Model, distances: list[tuple[Joint, float]]) -> Findings:
+        """Yield a finding for each joint that is far from its parent compared with all others, if no shape is known."""
+        *others, largest = sorted(distance for _, distance in distances)
+        typical = max(others, default=0.0)
+        roots = {link.name for link in model.robot.roots()}
+        for joint, distance in distances:
+            origin = joint.element.find("origin")
+            is_far = distance == largest >= _MIN_DISTANCE and distance > _TIMES_OTHERS * typical > 0.0
+            is_scenery = joint.parent in roots and not shapes_of(model.robot.link_by_name[joint.parent or ""])
+            if is_far and origin is not None and not is_scenery:
+                message = f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; all other joints are within"
+                help = "write offsets in metres"
+                yield self.at(model, origin, f"{message} {typical:.3g} m", attribute="xyz", joint=joint.name, help=help)
 
     def _outside(self, model: Model) -> Findings:
         """Yield a finding for the only moving joint that is not at its parent link."""

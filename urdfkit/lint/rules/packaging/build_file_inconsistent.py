@@ -207,7 +207,7 @@ class BuildFileInconsistent(RobotRule):
             place = installs[0].start if installs else max(source.text.find("data_files"), 0)
             message = f"folder `{folder}` is not installed, but {use}"
             severity: Severity = "note" if is_catkin else "warning"
-            yield self._at(source, place, "install" if installs else "data_files", message, severity)
+            yield self._at(source, place, "install" if installs else "data_files", message, severity, "folder")
 
     def _programs(self, model: Model, files: BuildFiles) -> Findings:
         """Yield a finding for each script that launch files start and that CMakeLists.txt does not install."""

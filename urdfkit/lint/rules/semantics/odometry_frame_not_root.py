@@ -4,6 +4,14 @@ from __future__ import annotations
 
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
+_FRAMES = (
+    ("frame_id", "child_frame_id"),
+    ("odom_frame", "robot_base_frame"),
+    ("odometry_frame", "robot_base_frame"),
+    ("odometryFrame", "robotBaseFrame"),
+)
+"""Parameters of drives and odometry publishers: frame of the odometry, frame of the robot."""
+
 
 class OdometryFrameNotRoot(RobotRule):
     """A drive publishes the pose of a link that has a parent in the robot.
@@ -58,6 +66,7 @@ class OdometryFrameNotRoot(RobotRule):
         from urdfkit.description.plugins import values
         from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, is_foreign, plugins, spec_of
 
+        yield from self._same_frames(model)
         roots = model.robot.roots()
         root = roots[0].name if len(roots) == 1 and not model.is_incomplete else None
         if root is None or root in OUTSIDE_FRAMES:
@@ -81,3 +90,19 @@ class OdometryFrameNotRoot(RobotRule):
                         f"<{element.tag}> is `{name}`, but the root link is `{root}`: `{name}` has two parents in TF"
                     )
                     yield self.at(model, element, message, link=name, help=f"write `{root}`")
+
+    def _same_frames(self, model: Model) -> Findings:
+        """Yield a finding for each plugin whose odometry frame is its base frame."""
+        from urdfkit.lint.facts.gazebo.plugins import plugins
+
+        for plugin, _, _ in plugins(model.robot):
+            for odometry, base in _FRAMES:
+                first, second = plugin.element.find(odometry), plugin.element.find(base)
+                if first is None or second is None or any(model.is_unresolved(each) for each in (first, second)):
+                    continue
+                name = (first.text or "").strip().strip("/")
+                if name and name == (second.text or "").strip().strip("/") and "$" not in name:
+                    message = (
+                        f"<{odometry}> and <{base}> are both `{name}`: the frame of the odometry is not on the robot"
+                    )
+                    yield self.at(model, first, message, link=name, help="write `odom`")

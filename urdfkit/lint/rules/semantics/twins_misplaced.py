@@ -16,6 +16,10 @@ _UNEVEN = 0.25
 """Largest accepted difference of coordinates, as a fraction of the distance from the parent."""
 
 
+_UNEVEN_WHEELS = 0.05
+"""The same for wheels, which must touch the ground."""
+
+
 class TwinsMisplaced(RobotRule):
     """A part and its counterpart on the other side, or at the other end, are not mirrored.
 
@@ -24,7 +28,7 @@ class TwinsMisplaced(RobotRule):
     and ``fr``) or an end (``front`` and ``rear``) only. Parts on two sides must have the same coordinates except
     for one sign, and parts at two ends may differ in one coordinate. Reports counterparts in the same place, signs
     and decimal points that differ, and joints that move and differ in a coordinate by more than a quarter of their
-    distance from the parent.
+    distance from the parent, or wheels by more than a twentieth.
 
     ## Why is this bad?
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
@@ -123,7 +127,9 @@ def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
             x, y = (f"{value:g}" for value in (first[k], second[k]))
             return f"{'xyz'[k]} of joints {names} is {x} m and {y} m: a ratio of {factor}", "check the decimal point"
     flipped = [k for k in differing if abs(first[k] + second[k]) <= _SAME * distance]
-    uneven = [k for k in differing if k not in flipped and abs(abs(first[k]) - abs(second[k])) > _UNEVEN * distance]
+    is_wheel = pair.are_sides and pair.first.type == "continuous" and "wheel" in pair.first.name.lower()
+    accepted = (_UNEVEN_WHEELS if is_wheel else _UNEVEN) * distance
+    uneven = [k for k in differing if k not in flipped and abs(abs(first[k]) - abs(second[k])) > accepted]
     if not pair.first.is_movable:
         return None
     if pair.are_sides and uneven:
