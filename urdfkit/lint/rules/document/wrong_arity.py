@@ -1,7 +1,5 @@
 """E011 wrong-arity."""
 
-import re
-
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -56,5 +54,6 @@ class WrongArity(RobotRule):
             if problem.attribute == "scale" and len(words) == 1:
                 value = " ".join(words * 3)
                 fix = new_value(model, problem.element, "scale", value, "unsafe", "Apply the scale to all three axes")
-            names = tuple(re.findall(r"\b(?:joint|link) `([^`]+)`", problem.message))
+            placed = [joint for joint in model.robot.joints if problem.element in joint.element.children]
+            names = tuple(name for joint in placed for name in (joint.name, joint.child) if name)
             yield self.at(model, problem.element, problem.message, attribute=problem.attribute, fix=fix, names=names)
