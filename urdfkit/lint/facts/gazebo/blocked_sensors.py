@@ -1,4 +1,4 @@
-"""Cameras and lidars whose view is blocked by the robot: the sensor is inside of a body, or looks at one."""
+"""Cameras and lidars whose view is blocked by the robot: the sensor is inside of a body, or faces one."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]
             hit = [_first(solids, eye, *angles) for angles in rays]
             seen = [name for name in hit if name is not None]
             if len(seen) >= _BLOCKED * len(rays):
-                yield block, sensor, f"sensor `{sensor.name}` looks at the shape of link `{seen[0]}` only"
+                yield block, sensor, f"sensor `{sensor.name}` faces the shape of link `{seen[0]}` only"
 
 
 _AROUND = ((_TILT, 0.0), (-_TILT, 0.0), (0.0, _TILT), (0.0, -_TILT))
