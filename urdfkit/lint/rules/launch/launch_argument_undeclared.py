@@ -16,7 +16,8 @@ class LaunchArgumentUndeclared(RobotRule):
     ## What it does
     Compares the names in ``$(arg …)``, ``$(var …)`` and ``LaunchConfiguration(…)`` with the declared arguments. In ROS
     2, arguments of other launch files are visible too: the rule then reports a name that no launch file of these
-    packages declares, and only if it is a misspelling or if no file from outside can declare it.
+    packages declares, and only if it is a misspelling or if no file from outside can declare it. It warns of a name
+    that only other launch files declare or pass, if neither the file nor one that it includes declares it.
 
     ## Why is this bad?
     The launch fails with "requires the 'model' arg to be set" or "launch configuration 'model' does not exist". With a
@@ -82,6 +83,8 @@ class LaunchArgumentUndeclared(RobotRule):
         is_certain = are_found and not has_default and not is_elsewhere and bool(file.declared)
         is_certain &= not file.imports_code
         if near is None and not file.is_ros1 and not is_certain:
+            if is_elsewhere and are_found and not has_default and not file.imports_code:
+                yield from self._inherited(file, use, model)
             return
         if near is not None and near not in used and _is_rarer(near, use.name, file):
             place = file.declared[near].name
@@ -93,6 +96,17 @@ class LaunchArgumentUndeclared(RobotRule):
         span = file.source.span(place.start, place.start + len(place.name))
         severity = "warning" if has_default else self.severity
         yield self.at_span(span, message, severity=severity)
+
+    def _inherited(self, file: LaunchActions, use: Named, model: Model) -> Findings:
+        """Warn of a name that has a value only if another launch file includes this one."""
+        from urdfkit.lint.facts.launch.receivers import included_files
+
+        included = [each for each in included_files(file, model) if each is not None]
+        if any(each.is_computed or use.name in {*each.declared, *each.assigned} for each in included):
+            return
+        span = file.source.span(use.start, use.start + len(use.name))
+        message = f"launch argument `{use.name}` is not declared; the file fails unless an including file has it"
+        yield self.at_span(span, message, severity="warning", help="declare the argument, with a default")
 
 
 def _is_rarer(name: str, other: str, file: LaunchActions) -> bool:
