@@ -60,7 +60,10 @@ _ONLY_IN = {
 """Version of ROS → executables that no release of the other version has."""
 
 _UNTIL_GALACTIC = "controller_manager: spawner.py unspawner.py hardware_spawner.py"
-_SINCE_HUMBLE = ("gz_ros2_control", "ros_gz_sim", "ros_gz_bridge")
+_SINCE_HUMBLE = (
+    *("gz_ros2_control", "ros_gz_sim", "ros_gz_bridge", "moveit_configs_utils", "admittance_controller"),
+    *("nav2_behaviors", "nav2_smoother", "nav2_velocity_smoother", "nav2_collision_monitor"),
+)
 """Packages that no release before Humble has."""
 
 _REPLACED = {"nav2_recoveries": ("nav2_behaviors", "behavior_server")}
