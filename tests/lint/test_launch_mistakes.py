@@ -77,4 +77,5 @@ def test_packages_of_navigation_date_the_release_that_has_no_spawner_py(tmp_path
     )
     message = "package `controller_manager` has no executable `spawner.py` in this release of ROS 2; did you mean"
     reported = found(cart, "L103")
-    assert len(reported) == is_reported and all(text.startswith(message) for _, _, text in reported)
+    assert len(reported) == is_reported
+    assert all(text.startswith(message) for _, _, text in reported)

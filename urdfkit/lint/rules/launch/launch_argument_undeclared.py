@@ -17,7 +17,7 @@ class LaunchArgumentUndeclared(RobotRule):
     Compares the names in ``$(arg …)``, ``$(var …)`` and ``LaunchConfiguration(…)`` with the declared arguments. In ROS
     2, arguments of other launch files are visible too: the rule then reports a name that no launch file of these
     packages declares, and only if it is a misspelling or if no file from outside can declare it. It warns of a name
-    that only other launch files declare or pass, if neither the file nor one that it includes declares it.
+    that only other launch files declare or pass, if neither the file nor its included files declare it.
 
     ## Why is this bad?
     The launch fails with "requires the 'model' arg to be set" or "launch configuration 'model' does not exist". With a
