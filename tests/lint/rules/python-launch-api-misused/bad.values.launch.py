@@ -4,7 +4,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description():
-    gui = launch.substitutions.LaunchConfiguration("gui")
+    gui = launch.substitutions.LaunchConfiguration("gui")  # <!-- expect: L101 -->
     condition = launch.conditions.IfCondition("gui")  # <!-- expect: L106 -->
     description = launch.substitutions.Command(["cat ", "cart.urdf"])
     server = Node(
