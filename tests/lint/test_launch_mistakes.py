@@ -79,3 +79,72 @@ def test_packages_of_navigation_date_the_release_that_has_no_spawner_py(tmp_path
     reported = found(cart, "L103")
     assert len(reported) == is_reported
     assert all(text.startswith(message) for _, _, text in reported)
+
+
+WORLD = """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, LogInfo, OpaqueFunction
+from launch.substitutions import LaunchConfiguration
+
+
+def setup(context):
+    world = LaunchConfiguration("world").perform(context)
+    return [LogInfo(msg=os.path.join(get_package_share_directory("cart"), "worlds", world + ".sdf"))]
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("world", default_value="{default}", choices=["hall", "{choice}"]),
+        OpaqueFunction(function=setup),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("default", "choice", "missing"), [("hall", "yard", "yard"), ("hall", "hall", ""), ("", "hall", "")]
+)
+def test_each_default_and_choice_of_an_argument_names_a_file_that_exists(tmp_path, default, choice, missing):
+    cart = package(tmp_path / "cart", "ament_cmake")
+    write(cart / "worlds/hall.sdf", '<sdf version="1.9"><world name="hall"/></sdf>\n')
+    write(cart / "launch/world.launch.py", WORLD.replace("{default}", default).replace("{choice}", choice))
+    message = f"`worlds/{missing}.sdf` does not exist in package `cart`"
+    assert found(cart, "K958") == ([("world.launch.py", 11, message)] if missing else [])
+
+
+INNER = (
+    '<launch>\n  <arg name="mode"{}/>\n  <include file="$(find cart)/launch/$(arg mode)_drive.launch"/>\n</launch>\n'
+)
+MIDDLE = """<launch>
+  <arg name="drive" default="fake"/>
+  <include file="$(find cart)/launch/inner.launch">
+    <arg name="mode" value="$(arg drive)"/>
+  </include>
+</launch>
+"""
+OUTER = """<launch>
+  <include file="$(find cart)/launch/middle.launch">
+    <arg name="drive" value="{}"/>
+  </include>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("default", "value", "place"),
+    [
+        ("", "real", None),
+        (' default="fake"', "reel", ("outer.launch", 3, "reel")),
+        (' default="feke"', "real", ("inner.launch", 3, "feke")),
+    ],
+)
+def test_values_that_including_files_pass_on_name_a_file_that_exists(tmp_path, default, value, place):
+    cart = package(tmp_path / "cart", "catkin")
+    for name in ("real_drive", "fake_drive"):
+        write(cart / f"launch/{name}.launch", "<launch/>\n")
+    write(cart / "launch/inner.launch", INNER.format(default))
+    write(cart / "launch/middle.launch", MIDDLE)
+    write(cart / "launch/outer.launch", OUTER.format(value))
+    expected = [(*place[:2], f"`launch/{place[2]}_drive.launch` does not exist in package `cart`")] if place else []
+    assert found(cart, "K958") == expected

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Collection, Iterator
 
-from urdfkit.description.launch.python_constants import JOINS, SHARE, launch_reader, name_of, parsed
+from urdfkit.description.launch.python_constants import JOINS, SHARE, LaunchReader, launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.record import record
 
@@ -56,7 +56,8 @@ class PackagePath:
 def package_paths(source: Source) -> Iterator[PackagePath]:
     """Yield the constant package paths in a launch file."""
     if source.file.endswith(".py"):
-        yield from _in_python(source)
+        tree = parsed(source) if any(word in source.text for word in SHARE) else None
+        yield from paths_in_python(source, tree, launch_reader(tree)) if tree is not None else ()
         return
     text = uncommented(source)
     for at in re.finditer(_FIND, text):
@@ -142,12 +143,10 @@ def place(source: Source, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, i
     return offset(node.lineno, node.col_offset), offset(end_line, end_column)
 
 
-def _in_python(source: Source) -> Iterator[PackagePath]:
-    if not any(word in source.text for word in SHARE) or (tree := parsed(source)) is None:
-        return
+def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> Iterator[PackagePath]:
+    """Yield the package paths in a launch file in Python that a reader can evaluate."""
     import ast
 
-    reader = launch_reader(tree)
     nodes = list(ast.walk(tree))
     inner: set[ast.AST] = set()  # parts of a longer path, and paths that are only tested for existence
     for node in nodes:

@@ -27,7 +27,7 @@ _USE = r"\$\((?:var|arg)\s+([\w-]+)\s*\)"
 
 
 @record(eq=False)
-class _Expected:
+class Expected:
     """Values that the arguments of a launch file accept.
 
     Attributes:
@@ -44,7 +44,7 @@ class _Expected:
 def refused_values(model: Model) -> Iterator[tuple[Span, str]]:
     """Yield the place and the message of each value that an argument cannot have."""
     for file in launch_files(model):
-        own = _expected(file.source)
+        own = expected_values(file.source)
         for name, value, is_default in own.values:
             message = _refused(name, value.name, own, is_default and file.source.file.endswith(".py"))
             if message is not None:
@@ -52,14 +52,14 @@ def refused_values(model: Model) -> Iterator[tuple[Span, str]]:
         for call in file.includes:
             path = receiver(call, model)
             actions = actions_at(path, model) if path is not None else None
-            expected = _expected(actions.source) if actions is not None else None
-            for name, value in _passed(file.source, call) if expected is not None else ():
+            expected = expected_values(actions.source) if actions is not None else None
+            for name, value in passed_values(file.source, call) if expected is not None else ():
                 message = _refused(name, value.name, expected, True) if expected is not None else None
                 if message is not None:
                     yield _span(file.source, value), message
 
 
-def _refused(name: str, value: str, expected: _Expected, is_passed: bool) -> str | None:
+def _refused(name: str, value: str, expected: Expected, is_passed: bool) -> str | None:
     choices = expected.choices.get(name)
     if choices is not None and value not in choices:
         listed = ", ".join(f"`{choice}`" for choice in choices[:5])
@@ -75,8 +75,9 @@ def _span(source: Source, value: Named) -> Span:
     return source.span(value.start, value.start + len(value.name))
 
 
-def _expected(source: Source) -> _Expected:
-    found = _Expected()
+def expected_values(source: Source) -> Expected:
+    """Return the values that the arguments of a launch file accept, with its defaults."""
+    found = Expected()
     if not source.file.endswith(".py"):
         for element in all_elements(source):
             for key in ("if", "unless"):
@@ -100,7 +101,7 @@ def _expected(source: Source) -> _Expected:
     return found
 
 
-def _read(source: Source, call: ast.Call, reader: LaunchReader, found: _Expected) -> None:
+def _read(source: Source, call: ast.Call, reader: LaunchReader, found: Expected) -> None:
     kind, words = name_of(call.func), {word.arg: word.value for word in call.keywords}
     first = call.args[0] if call.args else words.get("name")
     if kind == "DeclareLaunchArgument" and first is not None and (name := reader.text(first)) is not None:
@@ -143,13 +144,13 @@ def _named(source: Source, node: ast.expr) -> Named | None:
     return Named(node.value, start + offset) if offset >= 0 else None
 
 
-def _passed(source: Source, call: Call) -> Iterator[tuple[str, Named]]:
-    """Yield name and constant value of the arguments of an include."""
+def passed_values(source: Source, call: Call, with_arguments: bool = False) -> Iterator[tuple[str, Named]]:
+    """Yield name and constant value of the arguments of an include, in XML and YAML also those with arguments."""
     if not source.file.endswith(".py"):
         for element in (each for each in all_elements(source) if each.tag == "include" and each.start == call.start):
             for child in element.children:
                 name, value = child.attributes.get("name"), child.attributes.get("value")
-                if name is not None and value is not None and "$" not in value.name:
+                if name is not None and value is not None and (with_arguments or "$" not in value.name):
                     yield name.name, value
         return
     names = {name.start: name.name for name in call.passed}

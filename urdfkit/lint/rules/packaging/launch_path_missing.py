@@ -4,6 +4,9 @@ import re
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+from urdfkit.description.xml.source import Span
+from urdfkit.lint.facts.control.launch_package_paths import PackagePath
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -12,8 +15,10 @@ class LaunchPathMissing(RobotRule):
 
     ## What it does
     Checks the launch files of the robot's package and of neighbouring packages that depend on it. The rule resolves
-    paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. Python launch
-    files are parsed, not executed, so computed paths are not checked, nor are paths that are only tested for existence.
+    paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. A launch
+    argument in a path has its default, each of its choices, and each value that an including launch file passes. Python
+    launch files are parsed, not executed, so computed paths are not checked, nor are paths that are only tested for
+    existence.
     Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. So are maps,
     recordings and files that git ignores, which users and programs create, unless a file with a similar name exists.
     Folders and configurations of RViz, without which the launch continues, are warnings.
@@ -62,13 +67,30 @@ class LaunchPathMissing(RobotRule):
                 if package is None or _exists(package, reference.path, model):
                     continue
                 hint = near_path(package / reference.path)
-                if not hint and _is_created_at_run_time(package, reference.path):
-                    continue
-                yield self.at_span(
-                    source.span(reference.start, reference.end),
-                    f"`{reference.path}` does not exist in package `{reference.package}`" + hint,
-                    severity="error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity,
-                )
+                if hint or not _is_created_at_run_time(package, reference.path):
+                    span = source.span(reference.start, reference.end)
+                    yield self._missing(reference, span, hint)
+        if neighbouring is not None:
+            yield from self._with_arguments(model, neighbouring)
+
+    def _with_arguments(self, model: Model, packages: dict[str, Path]) -> Findings:
+        from urdfkit.lint.facts.parameters.argument_paths import argument_paths
+
+        for values in argument_paths(model):
+            package = packages.get(values[0].path.package)
+            missing = [each for each in values if package is not None and not _exists(package, each.path.path, model)]
+            missing = [each for each in missing if package and not _is_created_at_run_time(package, each.path.path)]
+            for each in missing[:1] if len(missing) == len(values) else missing:
+                span = each.source.span(each.path.start, each.path.end)
+                if each.value is not None and len(missing) < len(values):
+                    source, value = each.value
+                    span = source.span(value.start, value.start + len(value.name))
+                yield self._missing(each.path, span, "")
+
+    def _missing(self, reference: PackagePath, span: Span, hint: str) -> Finding:
+        message = f"`{reference.path}` does not exist in package `{reference.package}`" + hint
+        severity = "error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity
+        return self.at_span(span, message, severity=severity)
 
 
 def _exists(package: Path, path: str, model: Model) -> bool:
