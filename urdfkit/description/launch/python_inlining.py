@@ -29,6 +29,9 @@ def inlined(tree: ast.Module) -> ast.Module:
     functions = _simple_functions(tree)
     inliner = _Inliner(functions)
     inliner.visit(tree)
+    for name in functions.keys() - inliner.replaced:
+        # Such as a function that OpaqueFunction calls.
+        inliner.generic_visit(functions[name])
     gone, named = inliner.replaced - {"generate_launch_description"}, {""}
     while named:
         named = gone & _names(tree, gone)
@@ -113,11 +116,12 @@ class _Inliner(ast.NodeTransformer):
         return result
 
     def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
-        """Return the first value of ``a or b`` that is a constant and not false, such as a default name."""
+        """Return the first value of ``a or b`` that is constant and not false or empty, such as a default name."""
         self.generic_visit(node)
         values = node.values
-        while isinstance(node.op, ast.Or) and len(values) > 1 and isinstance(values[0], ast.Constant):
-            values = values[:1] if values[0].value else values[1:]
+        while isinstance(node.op, ast.Or) and len(values) > 1 and isinstance(values[0], (ast.Constant, ast.List)):
+            is_true = values[0].value if isinstance(values[0], ast.Constant) else values[0].elts
+            values = values[:1] if is_true else values[1:]
         return values[0] if len(values) == 1 else node
 
     def visit_ListComp(self, node: ast.ListComp) -> ast.AST:

@@ -18,6 +18,7 @@ from urdfkit.lint.facts.gazebo.sensor_topics import depth_clouds, published
 from urdfkit.lint.facts.launch.actions import launch_files
 from urdfkit.lint.facts.launch.receivers import receiver
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.topics.own_nodes import own_publications
 from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.model.model import Model
 
@@ -81,7 +82,9 @@ def is_closed(model: Model) -> bool:
     nodes = launched_nodes(model)
     calls = [call for file in launch_files(model) for call in file.includes]
     is_listed = all(receiver(call, model) is not None or call.package in _INCLUDED for call in calls)
-    return bool(nodes or calls) and is_listed and all(node.package in names for node in nodes)
+    others = {node.package for node in nodes} - names
+    are_readable = all(own_publications(model, package) is not None for package in sorted(others))
+    return bool(nodes or calls) and is_listed and are_readable
 
 
 def has_namespaces(model: Model) -> bool:
@@ -151,5 +154,6 @@ def _of_nodes(model: Model) -> Iterator[tuple[str, str]]:
                     yield f"{one.name}/{topic}", kind
     for node in launched_nodes(model):
         own = _NODES.get(node.program, ()) if node.package == "robot_localization" else _DRIVERS.get(node.package, ())
-        for topic, kind in own:
+        is_listed = own or node.package in _WITHOUT_SENSORS.split()
+        for topic, kind in own if is_listed else own_publications(model, node.package) or ():
             yield remapped(node, topic), kind

@@ -175,6 +175,7 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
             places += (
                 (file, at.start(1)) for at in re.finditer(r"(?:gz|ign)_topic_name\s*:\s*[\"']?([\w/]+)", source.text)
             )
+            places += _names_of_sources(source) if is_all else ()
     for mention in read:
         topic, topics = mention.topic.name.strip("/"), by_type.get(mention.type, set())
         if topic in topics or topic in seen or (mention.type == "PointCloud2" and has_camera):
@@ -184,9 +185,17 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
         )
         is_other = topic.startswith("odometry/") or topic.partition("/")[0] in controllers
         is_open = (is_below and in_namespaces) or ((is_other or len(topics) > 1) and not is_all)
-        if topics and not is_open and not words.names(topic, places):
+        if topics and not is_open and not words.names(topic, places, without_rviz=is_all):
             seen.add(topic)
             yield mention, sorted(topics)
+
+
+def _names_of_sources(source: Source) -> Iterator[tuple[str, int]]:
+    """Yield file and offset of the words that name a source of measurements of a costmap, and not a topic."""
+    for line in re.finditer(r"\b(?:observation_sources|\w+)\s*:", source.text):
+        start = line.start()
+        end = line.end() if not line[0].startswith("observation") else source.text.find("\n", start)
+        yield from ((source.file, start + at.start()) for at in re.finditer(r"\w+", source.text[start:end]))
 
 
 _CAMERA_DRIVERS = r"realsense|depthai|astra|zed_|orbbec|kinect_ros|azure_kinect|openni"

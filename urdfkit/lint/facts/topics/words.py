@@ -16,8 +16,8 @@ from urdfkit.lint.project.code_files import code_texts
 _NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
 """Endings of the other files that can name a topic."""
 
-_NO_TOPIC = r"(?:frame\w*[\"']?\s*(?:[:=>,]|\bvalue=)\s*|\b(?:type|name)=)[\"']?/?$"
-"""Matches the text before a name that is a frame, a type or the name of an element."""
+_NO_TOPIC = r"(?:frame\w*[\"']?\s*(?:[:=>,]|\bvalue=)\s*|\b(?:type|name)=)[\"']?/?$|<$"
+"""Matches the text before a name that is a frame, a type or the name or the tag of an element."""
 
 _MAX_FILES = 400
 
@@ -34,8 +34,14 @@ class Words:
             return False
         return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code) and not self._is_cut
 
-    def names(self, topic: str, places: Collection[tuple[str, int]]) -> bool:
-        """Return whether a file names a whole topic, apart from places that are known: file and offset."""
+    def names(self, topic: str, places: Collection[tuple[str, int]], without_rviz: bool = False) -> bool:
+        """Return whether a file names a whole topic, apart from places that are known: file and offset.
+
+        Args:
+            topic: the topic.
+            places: the known places.
+            without_rviz: whether RViz files, which only read topics, are ignored.
+        """
         pattern = re.compile(rf"(?<![\w/~])(?<!name=[\"'])/?{re.escape(topic)}(?![\w/])")
         model = self._model
         for file, source in {**model.expanded.sources, **model.related_files}.items():
@@ -43,11 +49,12 @@ class Words:
                 before = source.text[max(source.text.rfind("\n", 0, at.start()), at.start() - 60, 0) : at.start()]
                 if (file, at.start()) not in places and not re.search(_NO_TOPIC, before, re.IGNORECASE):
                     return True
-        return self.match(pattern.pattern)
+        return self.match(pattern.pattern, without_rviz)
 
-    def match(self, pattern: str) -> bool:
+    def match(self, pattern: str, without_rviz: bool = False) -> bool:
         """Return whether the code, a world or another file besides the related ones matches a pattern."""
-        return self._is_cut or any(re.search(pattern, text) for text in self._code)
+        texts = self._code_without_rviz if without_rviz else self._code
+        return self._is_cut or any(re.search(pattern, text) for text in texts)
 
     @cached_property
     def _counts(self) -> Counter[str]:
@@ -65,6 +72,10 @@ class Words:
         files = (each for folder in sorted(folders) for each in code_texts(folder, _NAMING_TOPICS, LAUNCH))
         texts = (text for path, text in files if str(path.absolute()) not in read)
         return list(islice(texts, _MAX_FILES + 1))
+
+    @property
+    def _code_without_rviz(self) -> list[str]:
+        return [text for text in self._code if not text.startswith("Panels:")]
 
     @property
     def _is_cut(self) -> bool:

@@ -11,7 +11,8 @@ class TopicUnconnected(RobotRule):
     ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
     ``joint_state_publisher`` for topics that the node does not have. Also reports the
     velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
-    ``twist_mux``, a drive controller, a plugin or a bridge of the packages reads velocity commands.
+    ``twist_mux``, a drive controller, a plugin or a bridge of the packages reads velocity commands, and nodes such as
+    ``nav2_velocity_smoother`` that read the topic on which they publish.
 
     ## Why is this bad?
     The robot does not move, and no node reports an error.
@@ -42,6 +43,7 @@ class TopicUnconnected(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.topics.loops import self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
         from urdfkit.lint.facts.topics.velocity_commands import (
             misnamed_remappings,
@@ -49,7 +51,10 @@ class TopicUnconnected(RobotRule):
             unread_commands,
         )
 
-        for source, name, message in (*misnamed_remappings(model), *unread_commands(model)):
+        loops = list(self_readers(model))
+        # Otherwise the commands that the loop leaves without a reader are its consequence.
+        unread = unread_commands(model) if not loops else ()
+        for source, name, message in (*misnamed_remappings(model), *loops, *unread):
             span = source.span(name.start, name.start + len(name.name))
             yield self.at_span(span, message)
         for source, value, message in unconnected_monitors(model):

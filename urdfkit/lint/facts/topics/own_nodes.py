@@ -1,0 +1,90 @@
+"""The messages that the nodes in the packages of a workspace publish, according to their code in Python or C++.
+
+Sources: rclpy (Node.create_publisher), rospy (Publisher), rclcpp (Node::create_publisher), roscpp (advertise).
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.launch.python_constants import name_of
+from urdfkit.description.packages.related_files import LAUNCH, neighbours
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.code_files import code_texts
+
+_CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
+_CLIENTS = r"\brclpy\b|\brospy\b|\brclcpp\b|\bros/ros\.h\b"
+_OTHER_PUBLISHERS = (
+    r"image_transport|point_cloud_transport|camera_info_manager|generic_publisher|AdvertiseOptions|rosbag|topic_tools"
+)
+"""Matches code that publishes in another way, or on topics that it computes."""
+
+_IN_CPP = r"\b(?:create_publisher|advertise)\b\s*(?:<\s*([\w:\s]+?)\s*>\s*\(\s*(?:\"([\w/~]+)\")?)?"
+_SENSOR_MESSAGES = (
+    *("LaserScan", "PointCloud2", "PointCloud", "Odometry", "Imu", "Image", "Range", "NavSatFix"),
+    *("PoseWithCovarianceStamped", "TwistWithCovarianceStamped"),
+)
+
+
+def own_publications(model: Model, package: str) -> list[tuple[str, str]] | None:
+    """Return topic and type without package of the sensor messages and odometry that a package publishes.
+
+    None if the package is not in the workspace, or if its code may publish other topics of these types.
+    """
+    folder = neighbours(model.package).get(package) if model.package is not None else None
+    if folder is None:
+        return None
+    found: list[tuple[str, str]] = []
+    is_read = False
+    model.expanded.packages.watch(folder)
+    for path, text in code_texts(folder, (".py", *_CPP), LAUNCH):
+        is_read |= re.search(_CLIENTS, text) is not None
+        if re.search(_OTHER_PUBLISHERS, text):
+            return None
+        for kind, topic in _in_python(text) if path.name.endswith(".py") else _in_cpp(text):
+            if kind is None or (topic is None and kind in _SENSOR_MESSAGES):
+                return None
+            if topic is not None and kind in _SENSOR_MESSAGES:
+                found.append((topic.strip("/"), kind))
+    return found if is_read else None
+
+
+def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
+    """Yield type and topic of each publisher; None for computed ones, and a type None for a syntax error."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError):
+        yield None, None
+        return
+    imports = (node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom))
+    messages = {
+        name.asname or name.name: name.name
+        for node in imports
+        for name in node.names
+        if (node.module or "").endswith(".msg")
+    }
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        words = {word.arg: word.value for word in call.keywords}
+        if name_of(call.func) in ("create_publisher", "create_lifecycle_publisher"):
+            values = [*call.args, words.get("msg_type"), words.get("topic")][:2]
+            kind, topic = (words.get("msg_type", values[0]), words.get("topic", values[1]))
+        elif ast.unparse(call.func) in ("rospy.Publisher", "Publisher"):
+            values = [*call.args, None, None][:2]
+            topic, kind = words.get("name", values[0]), words.get("data_class", values[1])
+        else:
+            continue
+        name = messages.get(kind.id) if isinstance(kind, ast.Name) else None
+        name = kind.attr if isinstance(kind, ast.Attribute) else name
+        is_text = isinstance(topic, ast.Constant) and isinstance(topic.value, str)
+        yield name, topic.value if is_text else None
+
+
+def _in_cpp(text: str) -> Iterator[tuple[str | None, str | None]]:
+    """Yield type and topic of each publisher; None for computed ones."""
+    for at in re.finditer(_IN_CPP, text):
+        kind = at[1] or ""
+        name = kind.rpartition("::")[2]
+        is_message = "::" in kind or re.search(rf"\busing\s+[\w:]+::{re.escape(name)}\s*;", text) is not None
+        yield (name if name and is_message else None), at[2]
