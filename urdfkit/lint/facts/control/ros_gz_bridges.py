@@ -142,8 +142,7 @@ def in_launch(source: Source) -> Iterator[Bridged]:
             continue
         for word in node.arguments:
             if node.program == "image_bridge" and word is not None and re.fullmatch(r"/?[\w/]+", word.name):
-                ros, gazebo, way = (Named(name, word.start) for name in _OF_IMAGES)
-                yield Bridged(word, ros, gazebo, way)
+                yield Bridged(word, *(Named(name, word.start) for name in _OF_IMAGES))
             at = re.fullmatch(r"([^@\s]+)@([\w/.]+)([@\[\]])([\w.:/]+)", word.name) if word is not None else None
             if word is None or at is None:
                 continue

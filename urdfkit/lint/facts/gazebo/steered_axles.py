@@ -107,7 +107,11 @@ def turning_radius(each: Axles) -> float | None:
     """Return the smallest turning radius at the middle of the axle that does not steer [m]; None if it is unknown."""
     length = wheelbase(each)
     limits = [wheel.joint.limit for _, wheel in each.wheels["steering"]]
-    angles = [min(-limit.lower, limit.upper) for limit in limits if limit is not None]
+    angles = [
+        min(-limit.lower, limit.upper)
+        for limit in limits
+        if limit is not None and limit.lower is not None and limit.upper is not None
+    ]
     if not length or not angles or len(angles) != len(limits) or not 0.0 < min(angles) < 1.5:
         return None
     return length / math.tan(max(angles))

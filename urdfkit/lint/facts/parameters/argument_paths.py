@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import partial
 
 from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
 from urdfkit.description.xml.reader import shown_path
@@ -57,13 +58,17 @@ def argument_paths(model: Model) -> Iterator[list[ArgumentPath]]:
                 if any(text.strip().lower() in _NO_FILE or text[0] in "/~." or "$" in text for text in texts):
                     continue
                 replaced = dict(zip(names, texts, strict=True))
-                full = re.sub(_USE, lambda use, to=replaced: to[use[1]], path.path)
+                full = re.sub(_USE, partial(_value_of, replaced), path.path)
                 is_own = value[1] is file.source or value[2] is None
                 origin = None if is_own or value[2] is None else (value[1], value[2])
                 one = PackagePath(path.package, full, path.start, path.end)
                 found.append(ArgumentPath(file.source, one, origin))
             if found:
                 yield found
+
+
+def _value_of(values: dict[str, str], use: re.Match[str]) -> str:
+    return values[use[1]]
 
 
 def _with_arguments(source: Source) -> Iterator[PackagePath]:

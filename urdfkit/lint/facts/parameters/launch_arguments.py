@@ -161,8 +161,8 @@ def passed_values(source: Source, call: Call, with_arguments: bool = False) -> I
             pairs += zip(node.keys, node.values, strict=True)
         elif isinstance(node, ast.Tuple) and len(node.elts) == 2:
             pairs.append((node.elts[0], node.elts[1]))
-        for key, value in pairs:
-            name = _named(source, key) if key is not None else None
-            written = _named(source, value)
-            if name is not None and written is not None and names.get(name.start) == name.name:
-                yield name.name, written
+        for key, constant in pairs:
+            argument = _named(source, key) if key is not None else None
+            written = _named(source, constant)
+            if argument is not None and written is not None and names.get(argument.start) == argument.name:
+                yield argument.name, written

@@ -113,8 +113,8 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
     for name, elements in topics.elements.items():
         if name in COMMON or name in topics.bridged or len(elements) > 1:
             continue
-        others = (COMMON | topics.bridged) - topics.described
-        near = next((each for each in sorted(others) if _is_misspelling(name, each, True)), None)
+        candidates = (COMMON | topics.bridged) - topics.described
+        near = next((each for each in sorted(candidates) if _is_misspelling(name, each, True)), None)
         if near is not None and elements[0].text.strip().endswith(name) and words.occurs_once(name):
             yield (
                 model.span(elements[0].origin.position),
@@ -150,8 +150,8 @@ def mentions(model: Model) -> Iterator[Mention]:
                     if is_topic and value.kind == "text" and re.fullmatch(r"[\w/]+", value.text):
                         reads = key.text == "scan_topic" or group.find("data_type") is not None
                         is_input = key.text[-1].isdigit()
-                        kind = group.find("data_type")
-                        type = _TYPES.get(key.text.rstrip("0123456789"), kind.text if kind is not None else "")
+                        named = group.find("data_type")
+                        type = _TYPES.get(key.text.rstrip("0123456789"), named.text if named is not None else "")
                         yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input, type)
 
 
