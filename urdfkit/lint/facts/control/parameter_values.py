@@ -113,6 +113,9 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
             continue
         above = f"{prefix}.max_{last[4:]}" if prefix else f"max_{last[4:]}"
         lower, upper = number_of(value), number_of(values.get(above))
+        is_velocity = last == "min_velocity" and (f"{prefix}." if prefix else "") + "has_velocity_limits" in values
+        if is_velocity and lower is not None and upper is not None and 0.0 < lower <= upper:
+            yield value, f"`{name}` is {lower:g}, so the robot cannot stop; write a value of zero or below"
         if lower is not None and upper is not None and lower > upper and upper >= 0.0:
             yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
     if is_ros2:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import launch_reader, parsed
+from urdfkit.description.packages.related_files import CODE, LAUNCH, neighbours
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import documents, span_of
@@ -18,6 +19,7 @@ from urdfkit.lint.facts.navigation.tables import NODES
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.code_files import code_texts
 
 Defects = Iterator[tuple[Source, Span, str]]
 
@@ -82,8 +84,8 @@ def misnamed(model: Model) -> Defects:
             elif near is not None and node.name is not None:
                 message = f"node `{name}` has no section in {_short(file)}" + Suggestion(near[1], name)
                 yield node.source, _span(node), message
-            elif node.name is not None and len(keys) == len(readers) == 1 and _has_one_node(node):
-                if keys[0][1] not in started and name in _RELEASED_NAMES:
+            elif node.name is not None and len(keys) == len(readers) == 1 and _has_one_node(node, keys[0][1], model):
+                if keys[0][1] not in started and (name in _RELEASED_NAMES or node.package not in released()):
                     message = f"no node is called `{keys[0][1]}`" + Suggestion(name, keys[0][1])
                     yield by_file[file], span_of(by_file[file], keys[0][0]), message
                 elif keys[0][1] not in started:
@@ -134,8 +136,17 @@ def _short(file: str) -> str:
     return file.rpartition("/")[2]
 
 
-def _has_one_node(node: LaunchedNode) -> bool:
-    return node.package in released() and node.package not in _SEVERAL
+def _has_one_node(node: LaunchedNode, other: str, model: Model) -> bool:
+    """Return whether the process of a node has no node of another name, which the code of a package would quote."""
+    folder = neighbours(model.package).get(node.package) if model.package is not None else None
+    if folder is None:
+        return node.package in released() and node.package not in _SEVERAL
+    model.expanded.packages.watch(folder)
+    texts = [text for _, text in code_texts(folder, CODE, LAUNCH)]
+    pattern = rf"[\"'/]{re.escape(other)}[\"']"
+    return any(re.search(r"\brclpy\b|\brclcpp\b", text) for text in texts) and not any(
+        re.search(pattern, text) for text in texts
+    )
 
 
 def _listed(source: Source) -> Iterator[tuple[str, Span]]:

@@ -19,6 +19,7 @@ class MoveitNameUndefined(RobotRule):
 
     - groups with a kinematics solver that the SRDF does not define
     - joints in ``joint_limits`` and in controllers that the robot does not have
+    - poses in ``initial`` of the fake controllers that are not states of their group
     - names in ``controller_names`` without a section
     - controllers that no YAML file of these packages defines: misspelt names, and in ROS 1 names without their
       namespace
@@ -52,11 +53,14 @@ class MoveitNameUndefined(RobotRule):
         """Yield a finding for each undefined name."""
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.yaml_tree import yamls
+        from urdfkit.lint.facts.moveit.initial_poses import undefined_poses
         from urdfkit.lint.facts.moveit.settings import controller_names, entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups, virtual_joints
 
         started: list[str] | None = None
         for source, root in moveit_yamls(model):
+            for pose, message, states in undefined_poses(source, root):
+                yield self._at(source, pose, message, states)
             for entry in entries(source):
                 if entry.kind == "group" and (name := entry.name.text) not in (defined := groups(root)):
                     yield self._at(source, entry.name, f"group `{name}` does not exist in the SRDF", defined)

@@ -95,7 +95,7 @@ class BridgeMisspelt(RobotRule):
             for word in malformed_in_launch(source):
                 yield self._at(source, word, f"`{word.name}` is not of the form `topic@ROS type@Gazebo type`")
         for source, bridge in bridges:
-            defect = _type_defect(bridge) or _direction_defect(bridge)
+            defect = _type_defect(bridge) or _direction_defect(bridge) or _former_type(bridge, model)
             if defect is not None:
                 yield self._at(source, *defect)
         for source, reference, message in _topic_defects(bridges, model):
@@ -137,6 +137,18 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
         compatible = " or ".join(f"`{name}`" for name in compatible_types[ros_type])
         return bridge.gazebo, f"cannot convert between `{ros_type}` and `{bridge.gazebo.name}`; use {compatible}"
     return None
+
+
+def _former_type(bridge: Bridged, model: Model) -> tuple[Named, str] | None:
+    """Return a type of Gazebo Fortress in a bridge of a robot with plugins of a later release, with its message."""
+    if bridge.gazebo is None or not bridge.gazebo.name.startswith("ignition.msgs."):
+        return None
+    if not any(
+        re.search(r"\bgz-sim-|\bgz::sim::|\bgz_ros2_control\b", each.text) for each in model.expanded.sources.values()
+    ):
+        return None
+    right = f"gz.msgs.{bridge.gazebo.name.removeprefix('ignition.msgs.')}"
+    return bridge.gazebo, f"`{bridge.gazebo.name}` is a type of Gazebo Fortress" + Suggestion(right, bridge.gazebo.name)
 
 
 def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:

@@ -15,6 +15,7 @@ class NavigationSettingsInconsistent(RobotRule):
     - an inflation radius below the inscribed radius of the footprint
     - footprints whose sides cross or that do not contain the origin
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
+    - a speed of the controller more than twice the limit of the velocity smoother
     - plugin names of different releases in one file
 
     ## Why is this bad?
@@ -51,8 +52,9 @@ class NavigationSettingsInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.navigation.commanded_speeds import unreachable_speeds
         from urdfkit.lint.facts.navigation.costmaps import costmap_defects
         from urdfkit.lint.facts.navigation.planners import plugin_defects
 
-        for source, node, message in (*costmap_defects(model), *plugin_defects(model)):
+        for source, node, message in (*costmap_defects(model), *plugin_defects(model), *unreachable_speeds(model)):
             yield self.at_span(span_of(source, node), message)

@@ -24,7 +24,8 @@ class ParameterValueInvalid(RobotRule):
     missing image, an unknown mode and impossible numbers. In the parameters of controllers it also checks rates, wheel
     sizes, limits and tolerances that are negative, zero or not a number, numbers and truth values in quotes, names that
     are not in a list, minima above maxima, joints that are listed twice or lack gains, controllers without a type or a
-    required parameter, and parameters that are indented to the level of controllers.
+    required parameter, lists of joint positions that lack a value or exceed the limits of a joint next to the list of
+    these joints, minimum velocities above zero, and parameters that are indented to the level of controllers.
 
     ## Why is this bad?
     The controller does not start, or the value is ignored: of a key that occurs twice, only the last value applies.
@@ -92,6 +93,7 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.navigation.nav2_plugins import nav2_defects
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
         from urdfkit.lint.facts.navigation.sections import costmaps_not_nested
+        from urdfkit.lint.facts.parameters.joint_lists import list_defects
         from urdfkit.lint.facts.parameters.node_parameters import node_defects
         from urdfkit.lint.facts.parameters.ranges import out_of_order
 
@@ -107,7 +109,8 @@ class ParameterValueInvalid(RobotRule):
             found += (*monitor_defects(source), *mux_defects(source), *frames_with_slash(source))
             for place, message in (*found, *_new(node_defects(source), found)):
                 yield self.at_span(span_of(source, place), message)
-            for place, message in costmaps_not_nested(source):
+            positions = list_defects(source, model.robot) if not is_of_controllers else ()
+            for place, message in (*costmaps_not_nested(source), *positions):
                 yield self.at_span(span_of(source, place), message)
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 if (node.line, node.column) in seen:  # an alias
