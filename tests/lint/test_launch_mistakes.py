@@ -148,3 +148,56 @@ def test_values_that_including_files_pass_on_name_a_file_that_exists(tmp_path, d
     write(cart / "launch/outer.launch", OUTER.format(value))
     expected = [(*place[:2], f"`launch/{place[2]}_drive.launch` does not exist in package `cart`")] if place else []
     assert found(cart, "K958") == expected
+
+
+LOADS = """<launch>
+  <arg name="speed" default="1"/>
+  <arg name="paused" default="{paused}"/>
+  <include file="$(find gazebo_ros)/launch/empty_world.launch">
+    <arg name="paused" value="$(arg paused)"/>
+  </include>
+  <rosparam file="$(find cart)/config/speeds.yaml"{subst_value}/>
+  <group ns="robot_description_kinematics">
+    <rosparam command="load" file="$(find cart)/config/{solver}.yaml"/>
+  </group>
+  <group ns="move_group/planning_pipelines/ompl">
+    <param name="planning_plugin" value="ompl_interface/OMPLPlanner"/>
+  </group>
+  <node name="move_group" pkg="moveit_ros_move_group" type="move_group">
+    <param name="default_planning_pipeline" value="{pipeline}"/>
+  </node>
+  <node name="s" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -model cart{unpause}"/>
+  <node name="c" pkg="controller_manager" type="spawner" args="drive"/>
+</launch>
+"""
+CORRECT = {
+    "paused": "true",
+    "subst_value": ' subst_value="true"',
+    "solver": "kinematics",
+    "pipeline": "ompl",
+    "unpause": " -unpause",
+}
+
+
+@pytest.mark.parametrize(
+    ("change", "line", "message"),
+    [
+        ({}, 0, ""),
+        ({"paused": "false", "unpause": ""}, 0, ""),
+        ({"unpause": ""}, 17, "Gazebo starts paused, and controllers wait until it runs; add `-unpause`"),
+        ({"pipeline": "chomp"}, 15, "planning pipeline `chomp` is not loaded; loaded: ompl"),
+        ({"subst_value": ""}, 7, '`$(arg speed)` in speeds.yaml is not replaced; add `subst_value="true"`'),
+        (
+            {"solver": "limits"},
+            9,
+            "limits.yaml has no `kinematics_solver`, which MoveIt reads from `robot_description_kinematics`",
+        ),
+    ],
+)
+def test_parameters_that_a_launch_file_of_ros1_loads(tmp_path, change, line, message):
+    cart = package(tmp_path / "cart", "catkin", "gazebo_ros", "controller_manager", "moveit_ros_move_group")
+    write(cart / "config/speeds.yaml", "# $(arg height)\nspeeds:\n  drive: $(arg speed)\n")
+    write(cart / "config/kinematics.yaml", "arm:\n  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin\n")
+    write(cart / "config/limits.yaml", "joint_limits:\n  joint:\n    max_velocity: 1.0\n")
+    write(cart / "launch/all.launch", LOADS.format(**{**CORRECT, **change}))
+    assert found(cart, "L110") == ([("all.launch", line, message)] if message else [])

@@ -35,6 +35,9 @@ class LaunchValueInvalid(RobotRule):
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
+    - parameter files with substitutions but without ``subst_value``, and files of MoveIt in the wrong namespace
+    - a default planning pipeline that is not loaded
+    - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` for a file without xacro, ``command`` for a command,
       ``value`` for a value
 
@@ -69,6 +72,11 @@ class LaunchValueInvalid(RobotRule):
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
         from urdfkit.lint.facts.parameters.launch_parameters import launch_parameter_defects
+        from urdfkit.lint.facts.parameters.loaded_files import (
+            loaded_file_defects,
+            spawned_while_paused,
+            unloaded_pipelines,
+        )
         from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():
@@ -86,6 +94,14 @@ class LaunchValueInvalid(RobotRule):
                 message = "the launch reads the output of the command as YAML, and stops at text that is not YAML"
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message, severity="warning", help='add `type="str"`')
+            found_in_files = (
+                *loaded_file_defects(source, model),
+                *unloaded_pipelines(source, model),
+                *spawned_while_paused(source, model),
+            )
+            for attribute, message in found_in_files if version == 1 else ():
+                span = source.span(attribute.value_start, attribute.value_end)
+                yield self.at_span(span, message, severity="warning")
             for word, message in launch_parameter_defects(source):
                 span = source.span(word.start, word.start + len(word.name))
                 yield self.at_span(span, message, severity="warning")

@@ -1,0 +1,120 @@
+"""Parameter files that launch files of ROS 1 load, and the parameters of MoveIt and Gazebo that depend on these.
+
+Sources (Noetic): roslaunch (xmlloader.py), moveit_ros/planning (kinematics_plugin_loader.cpp,
+planning_pipeline.cpp), gazebo_ros (spawn_model, empty_world.launch).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.related_files import neighbours
+from urdfkit.description.xml.reader import read_source, shown_path
+from urdfkit.description.xml.source import Source
+from urdfkit.errors import ResourceError
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
+from urdfkit.lint.facts.launch.actions import actions_of, share_of
+from urdfkit.lint.facts.launch.spawned_controllers import ros1_files
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Attribute, Document, Tag
+
+Defects = Iterator[tuple[Attribute, str]]
+
+_SUBSTITUTION = r"\$\((?:arg|find|env|optenv|eval|anon|dirname)\b[^()]*\)"
+_EXPECTED = {
+    "_kinematics": ("kinematics_solver",),
+    "_planning": ("joint_limits", "cartesian_limits", "default_velocity_scaling_factor", "max_velocity", "joint_names"),
+}
+"""End of a namespace of MoveIt → parameters of which a file for it has one."""
+
+
+def loaded_file_defects(source: Source, model: Model) -> Defects:
+    """Yield the files that a launch file of ROS 1 loads without substitution or into the wrong namespace."""
+    for tag in _tags(source):
+        attributes = tag.attributes
+        file = attributes.get("file")
+        if tag.name != "rosparam" or file is None or _is_command(tag):
+            continue
+        parameters = _read(file.value, model)
+        if parameters is None:
+            continue
+        text, name = uncommented(parameters), Path(parameters.file).name
+        is_replaced = "subst_value" in attributes and attributes["subst_value"].value.lower() != "false"
+        use = re.search(_SUBSTITUTION, text)
+        if use is not None and not is_replaced:
+            yield file, f'`{use[0]}` in {name} is not replaced; add `subst_value="true"`'
+        namespace = _namespace(tag)
+        for end, expected in _EXPECTED.items():
+            is_other = re.search(r"(?m)^\s*[\w/]+\s*:", text) and not any(word in text for word in expected)
+            if namespace.endswith(f"robot_description{end}") and is_other:
+                yield file, f"{name} has no `{expected[0]}`, which MoveIt reads from `robot_description{end}`"
+
+
+def unloaded_pipelines(source: Source, model: Model) -> Defects:
+    """Yield the values of ``default_planning_pipeline`` that no launch file of ROS 1 loads."""
+    if "default_planning_pipeline" not in source.text:
+        return
+    texts = [uncommented(file) for file in ros1_files(model)]
+    names = [at[1] for text in texts for at in re.finditer(r"planning_pipelines\b/?([^\"'\s<>/]*)", text)]
+    if not names or any("$" in name or not name for name in names):
+        return
+    for tag in _tags(source):
+        name, value = (tag.attributes.get(key) for key in ("name", "value"))
+        is_default = tag.name == "param" and name is not None and name.value.endswith("default_planning_pipeline")
+        if is_default and value is not None and "$" not in value.value and value.value not in names:
+            yield value, f"planning pipeline `{value.value}` is not loaded; loaded: {', '.join(sorted({*names}))}"
+
+
+def spawned_while_paused(source: Source, model: Model) -> Defects:
+    """Yield the arguments of ``spawn_model`` in a launch file that starts Gazebo paused, if no file unpauses it."""
+    tags = list(_tags(source)) if "paused" in source.text else []
+    defaults = actions_of(source).defaults
+    is_paused = False
+    for tag in tags:
+        name, value = (tag.attributes.get(key) for key in ("name", "value"))
+        parent = tag.parent.attributes.get("file") if tag.parent is not None else None
+        if tag.name == "arg" and name is not None and value is not None and parent is not None:
+            use = re.fullmatch(r"\$\(arg\s+([\w-]+)\s*\)", value.value)
+            text = defaults.get(use[1], "") if use is not None else value.value
+            is_paused |= name.value == "paused" and "empty_world.launch" in parent.value and text.lower() == "true"
+    if not is_paused or any("unpause" in file.text for file in model.related_files.values()):
+        return
+    if not any(re.search(r"pkg\s*=\s*[\"']controller_manager[\"']", file.text) for file in ros1_files(model)):
+        return
+    for tag in tags:
+        program, arguments = (tag.attributes.get(key) for key in ("type", "args"))
+        if tag.name == "node" and program is not None and program.value == "spawn_model" and arguments is not None:
+            yield arguments, "Gazebo starts paused, and controllers wait until it runs; add `-unpause`"
+
+
+def _is_command(tag: Tag) -> bool:
+    """Return whether a <rosparam> does something else than to load its file."""
+    command = tag.attributes.get("command")
+    return command is not None and command.value != "load"
+
+
+def _tags(source: Source) -> Iterator[Tag]:
+    for root in Document(source).roots:
+        yield from root.walk()
+
+
+def _namespace(tag: Tag) -> str:
+    """Return the namespace of an element, with ``robot_description`` for arguments of this name."""
+    parts = [each.attributes["ns"].value for each in (tag, *tag.ancestors()) if "ns" in each.attributes]
+    return re.sub(r"\$\(arg robot_description\)", "robot_description", "/".join(reversed(parts))).strip("/")
+
+
+def _read(path: str, model: Model) -> Source | None:
+    """Return a parameter file of a package of the workspace; None for other files."""
+    package, inner = share_of(path)
+    folder = neighbours(model.package).get(package) if model.package is not None else None
+    if folder is None or not is_file(folder / inner):
+        return None
+    name = shown_path(folder / inner)
+    try:
+        return model.related_files.get(name) or read_source(folder / inner, shown_as=name, texts=model.texts)
+    except ResourceError:
+        return None
