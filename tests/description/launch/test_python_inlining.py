@@ -25,6 +25,10 @@ def include(package, name="robot.launch.py", **arguments):
         ("def one(n):\n    return Node(n or 'a')\nb = one(None), one('c')", "b = (Node('a'), Node('c'))"),
         ("def f():\n    def g(x=()):\n        return N(list(x))\n    return [g(), g([1])]\n", "return [N(()), N([1])]"),
         ("def two(n):\n    return one(n + 1)\ndef one(n):\n    return N(n)\na = two(3)", "a = N(3 + 1)"),
+        (  # OpaqueFunction calls the function `setup`
+            "def one(n):\n    return N(n)\ndef setup(context):\n    return [one(3)]\na = Opaque(function=setup)",
+            "return [N(3)]",
+        ),
         ("a = [Node(n) for n in ('x', 'y')]", "a = [Node('x'), Node('y')]"),
     ],
 )

@@ -29,9 +29,9 @@ def inlined(tree: ast.Module) -> ast.Module:
     functions = _simple_functions(tree)
     inliner = _Inliner(functions)
     inliner.visit(tree)
-    for name in functions.keys() - inliner.replaced:
-        # Such as a function that OpaqueFunction calls.
-        inliner.generic_visit(functions[name])
+    for name, function in functions.items():  # in order, so that each run gives the same tree
+        if name not in inliner.replaced:  # such as a function that OpaqueFunction calls
+            inliner.generic_visit(function)
     gone, named = inliner.replaced - {"generate_launch_description"}, {""}
     while named:
         named = gone & _names(tree, gone)
