@@ -201,3 +201,65 @@ def test_parameters_that_a_launch_file_of_ros1_loads(tmp_path, change, line, mes
     write(cart / "config/limits.yaml", "joint_limits:\n  joint:\n    max_velocity: 1.0\n")
     write(cart / "launch/all.launch", LOADS.format(**{**CORRECT, **change}))
     assert found(cart, "L110") == ([("all.launch", line, message)] if message else [])
+
+
+SPAWNS = """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription, OpaqueFunction
+from launch_ros.actions import Node
+
+
+def include(name):
+    path = os.path.join(get_package_share_directory("cart"), "launch", name)
+    return IncludeLaunchDescription(path)
+
+
+def setup(context):
+    spawn = Node(package="ros_gz_sim", executable="create", arguments=["-topic", "{topic}", "-name", "cart"])
+    return [include("state.launch.xml"), include("drive.launch.py"), spawn]
+
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=setup)])
+"""
+STATE = '<launch>\n  <node pkg="robot_state_publisher" exec="robot_state_publisher"{}/>\n</launch>\n'
+DRIVES = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def spawner(name):
+    options = [name, "-c", "{namespace}/controller_manager"]
+    return Node(package="controller_manager", executable="spawner", arguments=options)
+
+
+def generate_launch_description():
+    return LaunchDescription([spawner("drive"), spawner("arm")])
+"""
+
+
+@pytest.mark.parametrize(
+    ("topic", "namespace", "node", "message"),
+    [
+        ("robot_description", "", "", None),
+        ("robot_model", "", "", ("all.launch.py", 15, "no node publishes topic `robot_model`; did you mean")),
+        ("robot_model", "", '><remap from="robot_description" to="robot_model"/></node', None),
+        (
+            "robot_description",
+            "/a",
+            "",
+            ("drive.launch.py", 7, "no node of these packages is in the namespace of `/a/"),
+        ),
+        ("robot_description", "/a", ' namespace="a"', None),
+    ],
+)
+def test_spawners_of_an_included_file_use_the_names_of_the_started_nodes(tmp_path, topic, namespace, node, message):
+    cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim", "robot_state_publisher", "controller_manager")
+    write(cart / "launch/all.launch.py", SPAWNS.replace("{topic}", topic))
+    write(cart / "launch/state.launch.xml", STATE.format(node).replace("node/>", "node>"))
+    write(cart / "launch/drive.launch.py", DRIVES.replace("{namespace}", namespace))
+    reported = found(cart, "K968")
+    assert len(reported) == (message is not None)
+    assert message is None or (reported[0][:2] == message[:2] and reported[0][2].startswith(message[2]))

@@ -88,8 +88,12 @@ class SpawnArgumentMisspelt(RobotRule):
         for source in launches(model):
             if not any(package in source.text for package in (*_PACKAGES, "controller_manager")):
                 continue
+            reported: set[int] = set()
             for node in started(source):
                 for word in _in_unknown_namespaces(node, source, model):
+                    if word.start in reported:  # a function of the launch file starts several nodes
+                        continue
+                    reported.add(word.start)
                     message = f"no node of these packages is in the namespace of `{word.name}`"
                     span = source.span(word.start, word.start + len(word.name))
                     yield self.at_span(span, message, severity="warning")
@@ -99,7 +103,11 @@ class SpawnArgumentMisspelt(RobotRule):
                         yield self.at_span(span, message, kind="option", names=names)
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
-                    invalid = (*_invalid_arguments(node, model), *_unknown_joints(node, model), *_without_source(node))
+                    invalid = (
+                        *_invalid_arguments(node, source, model),
+                        *_unknown_joints(node, model),
+                        *_without_source(node),
+                    )
                     for start, text, message in invalid:
                         span = source.span(start, start + len(text))
                         severity = "warning" if _is_ignored(node, text) else self.severity
@@ -109,11 +117,16 @@ class SpawnArgumentMisspelt(RobotRule):
 
 def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Iterator[Named]:
     """Yield the controller manager or description in a namespace, if the file starts a robot without a namespace."""
-    from urdfkit.lint.facts.launch.actions import actions_of
+    from urdfkit.lint.facts.launch.actions import launch_files
     from urdfkit.lint.facts.launch.receivers import included_files
 
-    reached = included_files(actions_of(source), model)
-    is_started = any(each is not None and "robot_state_publisher" in each.source.text for each in reached)
+    if not any(word is not None and "/" in word.name for word in node.arguments):
+        return
+    is_started = False
+    for file in launch_files(model):  # the file itself, and the files that include it
+        reached = [each.source for each in included_files(file, model) if each is not None]
+        is_around = any(each.file == source.file for each in reached)
+        is_started |= is_around and any("robot_state_publisher" in each.text for each in reached)
     for word in node.arguments if is_started else ():
         at = (
             re.fullmatch(r"/?([\w/]+)/(?:controller_manager|robot_description)", word.name)
@@ -155,7 +168,7 @@ def _is_ignored(node: Started, option: str) -> bool:
     return node.program == "create" and option.startswith("-") and not written.isdisjoint(sources)
 
 
-def _invalid_arguments(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
+def _invalid_arguments(node: Started, source: Source, model: Model) -> Iterator[tuple[int, str, str]]:
     """Yield the offset, text and message of each invalid argument."""
     from urdfkit.lint.facts.ros_packages import is_slip
     from urdfkit.lint.fix_builders import nearest
@@ -180,7 +193,20 @@ def _invalid_arguments(node: Started, model: Model) -> Iterator[tuple[int, str, 
             if near is not None and name != near and (is_slip(name, near) or _is_only_here(name, model)):
                 kind = "topic" if previous == "topic" else "parameter"
                 yield word.start, text, f"unknown {kind} `{text}`" + Suggestion(_DESCRIPTION, text)
+            elif near is None and previous == "topic" and _is_unpublished(name, source, model):
+                yield word.start, text, f"no node publishes topic `{text}`" + Suggestion(_DESCRIPTION, text)
         previous = option[1] if option is not None else ""
+
+
+def _is_unpublished(topic: str, source: Source, model: Model) -> bool:
+    """Return whether the launch file starts a publisher of the description, and no other file names the topic."""
+    from urdfkit.lint.facts.launch.actions import actions_of
+    from urdfkit.lint.facts.launch.receivers import included_files
+
+    reached = list(included_files(actions_of(source), model))
+    texts = [each.source.text for each in reached if each is not None]
+    is_complete = len(texts) == len(reached) and any("robot_state_publisher" in text for text in texts)
+    return is_complete and _is_only_here(topic, model)
 
 
 def _is_only_here(topic: str, model: Model) -> bool:
