@@ -263,3 +263,32 @@ def test_spawners_of_an_included_file_use_the_names_of_the_started_nodes(tmp_pat
     reported = found(cart, "K968")
     assert len(reported) == (message is not None)
     assert message is None or (reported[0][:2] == message[:2] and reported[0][2].startswith(message[2]))
+
+
+GAZEBO = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    world = LaunchConfiguration("world")
+    path = PathJoinSubstitution([FindPackageShare("gazebo_ros"), "launch", "gazebo.launch.py"])
+    return LaunchDescription([
+        DeclareLaunchArgument("world", default_value="{world}"),
+        IncludeLaunchDescription(
+            PythonLaunchDescriptionSource(path),
+            launch_arguments={"world": world, "verbose": "true"}.items(),
+        ),
+    ])
+"""
+
+
+@pytest.mark.parametrize(("world", "is_reported"), [("hall", True), ("", False), ("worlds/empty.world", False)])
+def test_gazebo_classic_needs_the_path_of_the_world(tmp_path, world, is_reported):
+    cart = package(tmp_path / "cart", "ament_cmake", "gazebo_ros")
+    write(cart / "launch/gazebo.launch.py", GAZEBO.replace("{world}", world))
+    message = "Gazebo finds no world `hall`; write the path of its file"
+    assert found(cart, "K958") == ([("gazebo.launch.py", 16, message)] if is_reported else [])

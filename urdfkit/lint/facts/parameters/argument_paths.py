@@ -11,9 +11,10 @@ from urdfkit.description.launch.python_constants import LaunchReader, name_of, p
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
-from urdfkit.lint.facts.control.launch_package_paths import PackagePath, paths_in_python
+from urdfkit.lint.facts.control.launch_package_paths import PackagePath, paths_in_python, place
 from urdfkit.lint.facts.launch.actions import all_elements, launch_files
 from urdfkit.lint.facts.launch.receivers import receiver
+from urdfkit.lint.facts.launch.records import Call
 from urdfkit.lint.facts.parameters.launch_arguments import expected_values, passed_values
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -23,6 +24,13 @@ _PATH = rf"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/((?:[^\s\"'<>$(){{}}:;,|&*]|{_US
 _EXISTENCE_TESTS = r"\b(?:exists|isfile|is_file|isdir|is_dir)\b"
 _NO_FILE = ("", "none", "false", "true")
 _MAX_DEPTH = 4
+
+_WORLDS = {
+    ("gazebo_ros", "gazebo.launch.py"): "world",
+    ("gazebo_ros", "gzserver.launch.py"): "world",
+    ("gazebo_ros", "empty_world.launch"): "world_name",
+}
+"""Launch file of Gazebo Classic → its argument for the path of the world."""
 
 Value = tuple[str, Source, Named | None]
 """A value, the launch file with it, and its place if it is not a choice."""
@@ -69,6 +77,40 @@ def argument_paths(model: Model) -> Iterator[list[ArgumentPath]]:
 
 def _value_of(values: dict[str, str], use: re.Match[str]) -> str:
     return values[use[1]]
+
+
+def worlds_without_path(model: Model) -> Iterator[tuple[Source, int, int, str]]:
+    """Yield launch file, place and value of each world that an include of Gazebo Classic gets as a bare name."""
+    arguments = _Arguments(model)
+    for file in launch_files(model):
+        for call in file.includes:
+            argument = _WORLDS.get((call.package, call.path.rpartition("/")[2]))
+            if argument is None:
+                continue
+            for start, end, text in _values_of(file.source, call, argument):
+                use = re.fullmatch(_USE, text.strip())
+                texts = [each[0] for each in arguments.values(file.source, use[1])[:1]] if use else [text]
+                for name in texts:
+                    if re.fullmatch(r"\w+", name):
+                        yield file.source, start, end, name
+
+
+def _values_of(source: Source, call: Call, argument: str) -> Iterator[tuple[int, int, str]]:
+    """Yield place and text of the value of an argument that an include passes."""
+    if not source.file.endswith(".py"):
+        for name, value in passed_values(source, call, True):
+            if name == argument:
+                yield value.start, value.start + len(value.name), value.name
+        return
+    starts = {name.start for name in call.passed if name.name == argument}
+    tree = parsed(source) if starts else None
+    reader = ArgumentReader(tree) if tree is not None else None
+    for node in ast.walk(tree) if tree is not None else ():
+        for key, value in zip(node.keys, node.values, strict=True) if isinstance(node, ast.Dict) else ():
+            is_meant = isinstance(key, ast.Constant) and key.value == argument
+            text = reader.text(value) if reader is not None and is_meant else None
+            if key is not None and text is not None and place(source, key)[0] <= min(starts) <= place(source, key)[1]:
+                yield *place(source, value), text
 
 
 def _with_arguments(source: Source) -> Iterator[PackagePath]:

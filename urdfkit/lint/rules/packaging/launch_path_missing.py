@@ -18,7 +18,8 @@ class LaunchPathMissing(RobotRule):
     paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. A launch
     argument in a path has its default, each of its choices, and each value that an including launch file passes. Python
     launch files are parsed, not executed, so computed paths are not checked, nor are paths that are only tested for
-    existence.
+    existence. Gazebo Classic needs the path of its world, not only the name.
+
     Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. So are maps,
     recordings and files that git ignores, which users and programs create, unless a file with a similar name exists.
     Folders and configurations of RViz, without which the launch continues, are warnings.
@@ -70,12 +71,15 @@ class LaunchPathMissing(RobotRule):
                 if hint or not _is_created_at_run_time(package, reference.path):
                     span = source.span(reference.start, reference.end)
                     yield self._missing(reference, span, hint)
-        if neighbouring is not None:
+        if neighbouring is not None:  # a launch file contains a path
             yield from self._with_arguments(model, neighbouring)
 
     def _with_arguments(self, model: Model, packages: dict[str, Path]) -> Findings:
-        from urdfkit.lint.facts.parameters.argument_paths import argument_paths
+        from urdfkit.lint.facts.parameters.argument_paths import argument_paths, worlds_without_path
 
+        for source, start, end, world in worlds_without_path(model):
+            message = f"Gazebo finds no world `{world}`; write the path of its file"
+            yield self.at_span(source.span(start, end), message, severity="warning")
         for values in argument_paths(model):
             package = packages.get(values[0].path.package)
             missing = [each for each in values if package is not None and not _exists(package, each.path.path, model)]
