@@ -386,7 +386,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
                 + "".join(joint(f"j{n}", f"l{n - 1}", f"l{n}") for n in range(1, 7))
             )
         },
-        ["config/arm.srdf:3: warning: 4 joints of state `home` are not in group `arm`"],
+        ["config/arm.srdf:3: warning: joints `j2`, `j3`, `j4`, … of state `home` are not in group `arm`"],
     ),
     "types of a bridge in the wrong order": (
         "K969",

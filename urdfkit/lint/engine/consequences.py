@@ -91,6 +91,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("M102", "disable_collisions"), "robot", ("M110", "")),
     (("T201", ""), "robot", ("M102", "reason")),
     (("T201", ""), "robot", ("M105", "")),
+    (("T202", ""), "robot", ("M102", "reason")),
+    (("T202", ""), "robot", ("M105", "")),
     (("T204", ""), "robot", ("M102", "reason")),
     (("T204", ""), "robot", ("M105", "")),
     (("T204", ""), "robot", ("M110", "")),

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 HARDWARE = "K965"
 """Code of the rule that compares controllers with ``<ros2_control>``; robots without it cannot contradict it."""
 
+_TRANSMISSIONS = "K963"
+"""The same for controllers of ROS 1 and ``<transmission>``."""
+
 _SIMULATED = ("K969", "K977")
 """Codes of rules that compare topics with the sensors and plugins for Gazebo."""
 
@@ -84,7 +87,8 @@ def with_variants(
 
     A finding in the description is added if the robot with the default arguments does not have it. A finding in another
     file, such as a YAML file that names an undefined joint, stays only if every variant has it; one on interfaces of
-    the hardware, if every variant with ``<ros2_control>`` has it; one on topics, if every variant with sensors has it.
+    the hardware, if every variant with ``<ros2_control>``, or in ROS 1 with transmissions, has it; one on topics, if
+    every variant with sensors has it.
 
     Args:
         found: the result with the default arguments.
@@ -102,8 +106,13 @@ def with_variants(
     complete = [(result, each) for result, each, _ in every if not each.is_incomplete]
     common = [{(one.code, one.span) for one in result.findings} for result, _ in complete]
     with_hardware = [keys for keys, (_, each) in zip(common, complete, strict=True) if each.robot.ros2_control]
+    with_transmissions = [keys for keys, (_, each) in zip(common, complete, strict=True) if each.robot.transmissions]
     gazebo = [keys for keys, (_, each) in zip(common, complete, strict=True) if _has_sensors(each)]
-    common_of = {HARDWARE: with_hardware, **dict.fromkeys(_SIMULATED, gazebo or common)}
+    common_of = {
+        HARDWARE: with_hardware,
+        _TRANSMISSIONS: with_transmissions,
+        **dict.fromkeys(_SIMULATED, gazebo or common),
+    }
     findings: list[Finding] = []
     for result, _, variant in every:
         present = {(one.code, one.span) for one in findings}

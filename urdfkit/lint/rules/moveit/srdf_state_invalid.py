@@ -12,7 +12,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 _TOLERANCE = 0.005
 """Accepted excess over a limit [rad or m]; angles in SRDF are often rounded to two decimals."""
 
-_MAX_FOREIGN = 3
+_MAX_FOREIGN = 1
 """Number of joints of other groups in a state above which they have one finding."""
 
 _COUNT = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 7}
@@ -82,7 +82,8 @@ class SrdfStateInvalid(RobotRule):
                     value for value in values if members and value.get("name") in robot.joint_by_name.keys() - members
                 ]
                 if len(foreign) > _MAX_FOREIGN:
-                    message = f"{len(foreign)} joints of state `{state.get('name')}` are not in group `{group}`"
+                    listed = [f"`{value.get('name')}`" for value in foreign[:3]] + ["…"] * (len(foreign) > 3)
+                    message = f"joints {', '.join(listed)} of state `{state.get('name')}` are not in group `{group}`"
                     yield self.at(model, state, message, severity=severity)
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
                     message = cause = f"joint `{value.get('name')}` is not in group `{group}`"

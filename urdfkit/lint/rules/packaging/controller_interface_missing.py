@@ -17,7 +17,7 @@ class ControllerInterfaceMissing(RobotRule):
     ## What it does
     Compares the types of controllers in YAML (``effort_controllers/…``, ``velocity_controllers/…``,
     ``position_controllers/…`` and ``diff_drive_controller/…``) with the ``<hardwareInterface>`` elements in the
-    transmissions of their joints.
+    transmissions of their joints. A joint without a transmission is a note if no joint of the controller has one.
 
     ## Why is this bad?
     The controller does not start: "Could not find resource 'elbow' in 'hardware_interface::EffortJointInterface'".
@@ -75,7 +75,10 @@ class ControllerInterfaceMissing(RobotRule):
                     needed = f"`{controller_type.name}` requires the {required} of joint `{unprovided[0]}`"
                     message = f"{needed}, which has no transmission"
                     span = source.span(controller_type.start, controller_type.start + len(controller_type.name))
-                    yield self.at_span(span, message, severity="note", joint=unprovided[0])
+                    # Another file may contain the transmissions if the controller has none.
+                    has_others = len(unprovided) < len(joints_of(source, controller_type))
+                    severity = self.severity if has_others else "note"
+                    yield self.at_span(span, message, severity=severity, joint=unprovided[0])
                 if required is None or not missing or any("$" in name for name in provided[missing[0]]):
                     continue
                 if any(is_misspelt(name) for name in provided[missing[0]]):

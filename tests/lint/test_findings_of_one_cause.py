@@ -1,0 +1,75 @@
+"""Mistakes with several consequences: one finding for each, and none that another description of the robot refutes."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from urdfkit.cli import main
+
+MANIFEST = """<package format="3"><name>arm</name><version>1.0.0</version><description>An arm.</description>
+  <maintainer email="test@example.org">tester</maintainer><license>MIT</license>
+  <exec_depend>effort_controllers</exec_depend></package>"""
+TRANSMISSION = """<transmission name="NAME_transmission"><type>transmission_interface/SimpleTransmission</type>
+      <joint name="NAME"><hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>
+      <actuator name="NAME_motor"/></transmission>
+"""
+JOINT = """  <link name="lN"/>
+  <joint name="jN" type="revolute"><parent link="lM"/><child link="lN"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="5" velocity="1"/></joint>
+"""
+SRDF = """<robot name="arm">
+  <group name="arm"><chain base_link="l0" tip_link="l1"/></group>
+  <group name="all"><chain base_link="l0" tip_link="l3"/></group>
+  <group_state name="home" group="arm">
+    <joint name="j1" value="0"/><joint name="j2" value="0"/><joint name="j3" value="0"/>
+  </group_state>
+</robot>"""
+YAML = "arm_controller:\n  type: effort_controllers/JointTrajectoryController\n  joints: [j1, j2, j3]\n"
+LAUNCH = """<launch>
+  <param name="robot_description" command="$(find xacro)/xacro $(find arm)/arm.urdf.xacro sim:=true"/>
+  <node pkg="gazebo_ros" type="spawn_model" name="spawn" args="-urdf -param robot_description -model arm"/>
+</launch>
+"""
+
+
+def robot(transmissions):
+    joints = "".join(JOINT.replace("N", str(n)).replace("M", str(n - 1)) for n in (1, 2, 3))
+    return f"""<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="sim" default="false"/>
+  <link name="l0"/>
+{joints}  <xacro:if value="$(arg sim)">
+    {"".join(TRANSMISSION.replace("NAME", name) for name in transmissions)}
+    <gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo>
+  </xacro:if>
+</robot>"""
+
+
+def found(folder, files, code, capsys):
+    folder = folder / "arm"
+    folder.mkdir(exist_ok=True)
+    for name, text in ({"package.xml": MANIFEST} | files).items():
+        (folder / name).write_text(text)
+    main(["lint", str(folder), "--format", "json", "--no-cache", "--target", "ros1"])
+    findings = json.loads(capsys.readouterr().out)
+    return [(one["severity"], one["line"], one["message"]) for one in findings if one["code"] == code]
+
+
+@pytest.mark.parametrize(("transmissions", "count"), [(["j1", "j2"], 1), (["j1", "j2", "j3"], 0), ([], 0)])
+def test_a_joint_without_transmission_is_found_in_the_variant(tmp_path, capsys, transmissions, count):
+    files = {"arm.urdf.xacro": robot(transmissions), "control.yaml": YAML, "arm.launch": LAUNCH}
+    findings = found(tmp_path, files, "K963", capsys)
+    assert [(severity, line) for severity, line, _ in findings] == [("warning", 2)] * count
+    assert all("joint `j3`, which has no transmission" in message for *_, message in findings)
+
+
+def test_the_foreign_joints_of_a_state_have_one_finding(tmp_path, capsys):
+    findings = found(tmp_path, {"arm.urdf.xacro": robot([]), "arm.srdf": SRDF}, "M107", capsys)
+    assert [each[1:] for each in findings] == [(4, "joints `j2`, `j3` of state `home` are not in group `arm`")]
+
+
+def test_an_undefined_child_link_hides_the_chain_that_it_cuts(tmp_path, capsys):
+    text = robot([]).replace('<child link="l3"/>', '<child link="l3x"/>')
+    assert found(tmp_path, {"arm.urdf.xacro": text, "arm.srdf": SRDF}, "M105", capsys) == []
+    assert len(found(tmp_path, {"arm.urdf.xacro": text, "arm.srdf": SRDF}, "T202", capsys)) == 1
