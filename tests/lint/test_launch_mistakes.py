@@ -292,3 +292,34 @@ def test_gazebo_classic_needs_the_path_of_the_world(tmp_path, world, is_reported
     write(cart / "launch/gazebo.launch.py", GAZEBO.replace("{world}", world))
     message = "Gazebo finds no world `hall`; write the path of its file"
     assert found(cart, "K958") == ([("gazebo.launch.py", 16, message)] if is_reported else [])
+
+
+CONTROLLER = "{name}:\n  type: effort_controllers/JointTrajectoryController\n  joints: [{joint}]\n"
+MOVEIT = (
+    "  - name: {name}\n    action_ns: follow_joint_trajectory\n    type: FollowJointTrajectory\n    joints: [{joint}]\n"
+)
+STARTS = """<launch>
+  <rosparam command="load" file="$(find cart)/config/control.yaml"/>
+  <node name="c" pkg="controller_manager" type="spawner" args="{}"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("spawned", "joint", "is_reported"),
+    [
+        ("arm", "finger", True),
+        ("arm hand", "finger", False),
+        ("arm", "elbow", False),
+        ("$(arg names)", "finger", False),
+    ],
+)
+def test_a_controller_that_moveit_uses_is_spawned_if_others_are(tmp_path, spawned, joint, is_reported):
+    cart = package(tmp_path / "cart", "catkin", "controller_manager")
+    both = ({"name": "arm", "joint": "elbow"}, {"name": "hand", "joint": joint})
+    write(cart / "config/control.yaml", "".join(CONTROLLER.format(**each) for each in both))
+    write(cart / "config/moveit.yaml", "controller_list:\n" + "".join(MOVEIT.format(**each) for each in both))
+    write(cart / "config/cart.srdf", '<robot name="cart">\n  <group name="all"><link name="base"/></group>\n</robot>\n')
+    write(cart / "launch/start.launch", STARTS.format(spawned))
+    message = "no launch file spawns controller `hand`, which MoveIt uses"
+    assert found(cart, "M112") == ([("start.launch", 3, message)] if is_reported else [])

@@ -5,13 +5,18 @@ Sources: moveit_simple_controller_manager (actions by type), ros2_controllers an
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.control.controller_types import TYPES
+from urdfkit.description.xml.source import Span
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
+from urdfkit.lint.facts.control.launched_nodes import launches, started
 from urdfkit.lint.facts.control.yaml_tree import Node, yamls
 from urdfkit.lint.facts.moveit.settings import MoveitEntry
 from urdfkit.lint.model.model import Model
+
+_SPAWNERS = ("spawner", "spawner.py", "controller_manager")
 
 _ACTIONS = {
     "FollowJointTrajectory": ("JointTrajectoryController",),
@@ -85,6 +90,36 @@ def meant_controller(
         if one.kind.partition("/")[2] in classes and wanted == _joints(one)
     }
     return same.pop() if len(same) == 1 and same.isdisjoint(taken) else None
+
+
+def unspawned(
+    names: set[str], controllers: dict[str, list[ControllerSettings]], model: Model
+) -> Iterator[tuple[Span, str]]:
+    """Yield the last spawned controller, and a message, for each controller of MoveIt that no launch file starts.
+
+    Nothing is yielded if some arguments of a spawner are computed. A controller whose joints a started controller has
+    too is an alternative to that one.
+
+    Args:
+        names: names of the controllers of MoveIt.
+        controllers: name → settings of the controllers of ros_control.
+        model: the linted model.
+    """
+    files = list(launches(model))
+    spawners = [(file, node) for file in files for node in started(file) if node.package == "controller_manager"]
+    spawners = [(file, node) for file, node in spawners if node.program in _SPAWNERS]
+    words = [(file, word) for file, node in spawners for word in node.arguments]
+    running = {word.name for _, word in words if word is not None}.intersection(controllers)
+    if any(word is None for _, word in words) or not names & running:
+        return
+    moved = {joint for name in running for one in controllers[name] for joint in _joints(one)}
+    file, last = [(file, word) for file, word in words if word is not None and word.name in running][-1]
+    for name in sorted(names & controllers.keys() - running):
+        joints = {joint for one in controllers[name] for joint in _joints(one)}
+        is_named = any(re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", each.text) for each in files)
+        if joints and not joints & moved and not is_named:
+            message = f"no launch file spawns controller `{name}`, which MoveIt uses"
+            yield file.span(last.start, last.start + len(last.name)), message
 
 
 def _joints(one: ControllerSettings) -> set[str]:

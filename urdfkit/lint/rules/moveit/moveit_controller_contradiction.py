@@ -9,7 +9,8 @@ class MoveitControllerContradiction(RobotRule):
 
     ## What it does
     Compares the ``type`` and the ``joints`` of MoveIt's controllers with the controllers of the same name in the YAML
-    files of these packages. Reports a name that no controller has if exactly one other has its joints.
+    files of these packages. Reports a name that no controller has if exactly one other has its joints, and a controller
+    that no launch file spawns, although it spawns others.
 
     ## Why is this bad?
     MoveIt waits for an action that the controller does not offer, or the controller rejects the trajectory: "Joints on
@@ -49,13 +50,20 @@ class MoveitControllerContradiction(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each type and joint that differs."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.facts.moveit.controllers import contradictions, meant_controller, started_controllers
+        from urdfkit.lint.facts.moveit.controllers import (
+            contradictions,
+            meant_controller,
+            started_controllers,
+            unspawned,
+        )
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
 
         started = started_controllers(model)
+        names: set[str] = set()
         for source, _ in moveit_yamls(model):
             for entry in entries(source):
                 name = entry.name.text.strip("/").rpartition("/")[2]
+                names.update([name] if entry.kind == "controller" else ())
                 if entry.kind == "controller" and name not in started:
                     taken = {each.name.text.strip("/").rpartition("/")[2] for each in entries(source)}
                     meant = meant_controller(entry, started, taken)
@@ -65,3 +73,5 @@ class MoveitControllerContradiction(RobotRule):
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
                         yield self.at_span(span_of(source, node), message, names=(node.text,))
+        for span, message in unspawned(names, started, model):
+            yield self.at_span(span, message)
