@@ -43,7 +43,7 @@ def test_a_change_that_matches_nothing_is_an_error(tmp_path: Path) -> None:
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_with_changes_explains_their_signs(page: Path) -> None:
     before, diff, _ = page.read_text("utf-8").partition("```diff")
-    assert not diff or re.search(r"lines?\s+with\s+`-`", before)
+    assert not diff or re.search(r"lines?\s+(?:that\s+starts?\s+)?with\s+`-`", before)
 
 
 TIMED = [page for folder in ("tutorials", "guides") for page in sorted((ROOT / "docs" / folder).glob("*.md"))]

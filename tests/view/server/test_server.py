@@ -108,7 +108,7 @@ def test_a_second_page_watches_while_the_first_drives(client, page, server, text
     holder = server.drive_lock.holder
     second.send('{"type":"axes","axes":[-1,0,0,0],"speed":0.5,"turn":1}')
     second.send('{"type":"control","action":"play"}')  # comes after
-    assert text(second, "notice")["text"].startswith("play refused")
+    assert text(second, "notice")["text"].startswith("play rejected")
     assert server.drive_lock.holder == holder
     assert server.drive_lock.axes.axes[0] == 1.0
 

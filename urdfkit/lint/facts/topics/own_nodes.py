@@ -77,8 +77,8 @@ def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
             continue
         name = messages.get(kind.id) if isinstance(kind, ast.Name) else None
         name = kind.attr if isinstance(kind, ast.Attribute) else name
-        text = topic.value if isinstance(topic, ast.Constant) else None
-        yield name, text if isinstance(text, str) else None
+        written = topic.value if isinstance(topic, ast.Constant) else None
+        yield name, written if isinstance(written, str) else None
 
 
 def _in_cpp(text: str) -> Iterator[tuple[str | None, str | None]]:
