@@ -1,11 +1,12 @@
 """S909 twins-misplaced."""
 
 from collections import Counter
+from collections.abc import Iterator
 from math import dist, hypot, inf
 
-from urdfkit.description.urdf.robot import Link
+from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, twins
+from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, twins
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -15,6 +16,9 @@ _SAME = 0.02
 _UNEVEN = 0.25
 """Largest accepted difference of coordinates, as a fraction of the distance from the parent."""
 
+
+_UPRIGHT = 0.99
+"""Cosine of the angle up to which the parent of twins counts as upright."""
 
 _UNEVEN_WHEELS = 0.05
 """The same for wheels, which must touch the ground."""
@@ -28,7 +32,8 @@ class TwinsMisplaced(RobotRule):
     and ``fr``) or an end (``front`` and ``rear``) only. Parts on two sides must have the same coordinates except
     for one sign, and parts at two ends may differ in one coordinate. Reports counterparts in the same place, signs
     and decimal points that differ, and joints that move and differ in a coordinate by more than a quarter of their
-    distance from the parent, or wheels by more than a twentieth.
+    distance from the parent, or wheels by more than a twentieth. Also reports sides and ends that are exchanged, and
+    joints with equal offsets on parents whose shapes are mirrored.
 
     ## Why is this bad?
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
@@ -106,6 +111,11 @@ class TwinsMisplaced(RobotRule):
                 origin = wrong.element.find("origin") or wrong.element
                 names = (pair.first.name, pair.second.name)
                 yield self.at(model, origin, message, attribute="xyz", joint=wrong.name, help=help, names=names)
+        for joint, message in (*_exchanged(model), *_equal_below_mirrored(model)) if not found else ():
+            origin = joint.element.find("origin") or joint.element
+            help = "check the signs of the coordinates"
+            yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+            break
 
 
 def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
@@ -140,6 +150,49 @@ def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
         letters = " and ".join("xyz"[k] for k in sorted((*flipped, *([] if pair.are_sides else uneven))))
         return f"joints {names} differ in {letters}, not in one coordinate", "check the signs of the coordinates"
     return None
+
+
+def _exchanged(model: Model) -> Iterator[tuple[Joint, str]]:
+    """Yield a joint that is apart from its left-right twin along x and from its front-rear twin along y, reversed.
+
+    Seen from the rear, the left is then on the right, whichever axis points forward.
+    """
+    ends = {pair.first.name: pair for pair in twins(model) if not pair.are_sides}
+    for side in (pair for pair in twins(model) if pair.are_sides and pair.first.is_movable):
+        end, frame = ends.get(side.first.name), model.frames.get(side.first.parent or "")
+        if end is None or frame is None or frame.rotation[2][2] < _UPRIGHT:
+            continue
+        (x, y, _), (u, v, _) = (
+            tuple(a - b for a, b in zip(pair.first.origin.xyz, pair.second.origin.xyz, strict=True))
+            for pair in (side, end)
+        )
+        if abs(x) > abs(y) and abs(v) > abs(u) and u * y - v * x < 0.0:
+            names = f"`{side.first.name}` and `{side.second.name}` differ in x, `{end.second.name}` in y"
+            yield side.first, f"joints {names}: left and right are exchanged for front and rear"
+
+
+def _equal_below_mirrored(model: Model) -> Iterator[tuple[Joint, str]]:
+    """Yield a joint with the offset of its twin along an axis in which the shapes of their parents are mirrored."""
+    joints, links = model.robot.joint_by_name, model.robot.link_by_name
+    for joint in model.robot.joints:
+        other = next((joints[name] for name in mirrored(joint.name) if name in joints), None)
+        if other is None or joint.name > other.name or not joint.is_movable or joint.parent == other.parent:
+            continue
+        if other.parent not in mirrored(joint.parent or "") or joint.origin.xyz != other.origin.xyz:
+            continue
+        shapes = [shapes_of(links[each.parent or ""]) for each in (joint, other) if each.parent in links]
+        if len(shapes) != 2 or len(shapes[0]) != len(shapes[1]):
+            continue
+        places = [(one.origin.xyz, two.origin.xyz) for one, two in zip(*shapes, strict=True)]
+        for k in range(3):
+            is_mirrored = any(one[k] != 0.0 for one, _ in places) and all(one[k] == -two[k] for one, two in places)
+            frames = [model.frames.get(each.parent or "") for each in (joint, other)]
+            if joint.origin.xyz[k] == 0.0 or not is_mirrored or None in frames:
+                continue
+            if len({frame.rotation for frame in frames if frame is not None}) == 1:
+                names = f"`{joint.name}` and `{other.name}`"
+                value = f"{'xyz'[k]} is {joint.origin.xyz[k]:g} m for both"
+                yield other, f"joints {names} are not mirrored as the shapes of their parents are: {value}"
 
 
 def _are_in_one_place(pair: Twins, links: tuple[Link, Link], model: Model) -> bool:
