@@ -323,3 +323,40 @@ def test_a_controller_that_moveit_uses_is_spawned_if_others_are(tmp_path, spawne
     write(cart / "launch/start.launch", STARTS.format(spawned))
     message = "no launch file spawns controller `hand`, which MoveIt uses"
     assert found(cart, "M112") == ([("start.launch", 3, message)] if is_reported else [])
+
+
+SIMULATORS = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.conditions import IfCondition, UnlessCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+
+def gazebo(flags, condition):
+    path = PathJoinSubstitution([FindPackageShare("ros_gz_sim"), "launch", "gz_sim.launch.py"])
+    return IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(path), launch_arguments={"gz_args": flags}.items(), condition=condition
+    )
+
+
+def generate_launch_description():
+    headless = LaunchConfiguration("headless")
+    return LaunchDescription([
+        DeclareLaunchArgument("headless", default_value="false"),
+        gazebo("-r empty.sdf", {first}(headless)),
+        gazebo("-r {flag} empty.sdf", IfCondition(headless)),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "flag", "is_reported"),
+    [("UnlessCondition", "-s", False), ("IfCondition", "-s", True), ("IfCondition", "-g", False)],
+)
+def test_gazebo_starts_once_under_a_condition(tmp_path, first, flag, is_reported):
+    cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim")
+    write(cart / "launch/gz.launch.py", SIMULATORS.replace("{first}", first).replace("{flag}", flag))
+    message = "Gazebo starts under the condition on line 21 too; both run together"
+    assert found(cart, "L111") == ([("gz.launch.py", 22, message)] if is_reported else [])

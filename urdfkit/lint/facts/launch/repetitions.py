@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.launch.python_constants import launch_reader, name_of
@@ -17,6 +18,9 @@ from urdfkit.record import record
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
 _MOVING = ("PushRosNamespace", "PushROSNamespace", "RegisterEventHandler")
 """Actions after which nodes are in another namespace, or do not run at the same time."""
+_SERVERS = (("gazebo_ros", "/launch/gazebo.launch.py"), ("ros_gz_sim", "/launch/gz_sim.launch.py"))
+"""Package and path of launch files that start Gazebo."""
+
 _CONDITIONAL = (
     *(ast.If, ast.IfExp, ast.For, ast.While, ast.Try, ast.ListComp, ast.GeneratorExp, ast.Lambda),
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef),
@@ -102,6 +106,26 @@ def repeated_nodes(source: Source, tree: ast.Module) -> Iterator[tuple[str, Span
             if other is not call and not all(_has_condition(each) for each in (other, call)):
                 start, end = place(source, words["name"])
                 yield name, source.span(start, end), other.lineno
+
+
+def repeated_simulators(source: Source, tree: ast.Module) -> Iterator[tuple[Span, str]]:
+    """Yield the second of two servers of Gazebo that a launch file starts under the same condition."""
+    reader = launch_reader(tree)
+    servers: dict[str, ast.expr] = {}
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    for call in (each for each in calls if name_of(each.func) == "IncludeLaunchDescription"):
+        words = {word.arg: word.value for word in call.keywords}
+        condition = words.get("condition")
+        paths = [found for node in ast.walk(call) if isinstance(node, ast.expr) and (found := reader.path(node))]
+        arguments = ast.unparse(words["launch_arguments"]) if "launch_arguments" in words else ""
+        is_client = re.search(r"['\" ]-g\b", arguments) is not None
+        if is_client or not isinstance(condition, ast.Call) or not any(path in _SERVERS for path in paths):
+            continue
+        key = f"{name_of(condition.func)} {[ast.unparse(each) for each in condition.args]}"
+        first = servers.setdefault(key, condition)
+        if first is not condition:
+            place_of_condition = source.span(*place(source, condition))
+            yield place_of_condition, f"Gazebo starts under the condition on line {first.lineno} too; both run together"
 
 
 def _has_condition(call: ast.Call) -> bool:

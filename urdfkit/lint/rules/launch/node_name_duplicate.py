@@ -12,7 +12,8 @@ class NodeNameDuplicate(RobotRule):
     ## What it does
     Compares the names of all nodes in a launch file. Names with substitutions are not checked. Two nodes that both have
     a condition are not compared. In Python, files that push namespaces or react to events are not checked, and nodes in
-    branches, loops, groups or different functions are not compared.
+    branches, loops, groups or different functions are not compared. Also reports two includes that start Gazebo under
+    the same condition.
 
     ## Why is this bad?
     roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and parameters and services reach either one.
@@ -40,7 +41,7 @@ class NodeNameDuplicate(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node whose name another node has."""
         from urdfkit.lint.facts.launch.python_names import python_files
-        from urdfkit.lint.facts.launch.repetitions import repeated_nodes
+        from urdfkit.lint.facts.launch.repetitions import repeated_nodes, repeated_simulators
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
         from urdfkit.lint.model.tags import Document
 
@@ -62,6 +63,8 @@ class NodeNameDuplicate(RobotRule):
             for name, span, line in repeated_nodes(source, tree):
                 message = f"the node on line {line} also has the name `{name}`"
                 yield self.at_span(span, message, severity="warning")
+            for span, message in repeated_simulators(source, tree):
+                yield self.at_span(span, message)
 
 
 def _full_name(tag: Tag) -> str | None:
