@@ -106,11 +106,11 @@ def _values_of(source: Source, call: Call, argument: str) -> Iterator[tuple[int,
     tree = parsed(source) if starts else None
     reader = ArgumentReader(tree) if tree is not None else None
     for node in ast.walk(tree) if tree is not None else ():
-        for key, value in zip(node.keys, node.values, strict=True) if isinstance(node, ast.Dict) else ():
+        for key, each in zip(node.keys, node.values, strict=True) if isinstance(node, ast.Dict) else ():
             is_meant = isinstance(key, ast.Constant) and key.value == argument
-            text = reader.text(value) if reader is not None and is_meant else None
+            text = reader.text(each) if reader is not None and is_meant else None
             if key is not None and text is not None and place(source, key)[0] <= min(starts) <= place(source, key)[1]:
-                yield *place(source, value), text
+                yield *place(source, each), text
 
 
 def _with_arguments(source: Source) -> Iterator[PackagePath]:
