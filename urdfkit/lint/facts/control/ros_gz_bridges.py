@@ -141,8 +141,10 @@ def in_launch(source: Source) -> Iterator[Bridged]:
         if node.program not in ("parameter_bridge", "image_bridge"):
             continue
         for word in node.arguments:
-            if node.program == "image_bridge" and word is not None and re.fullmatch(r"/?[\w/]+", word.name):
-                yield Bridged(word, *(Named(name, word.start) for name in _OF_IMAGES))
+            if node.program == "image_bridge":
+                if word is not None and re.fullmatch(r"/?[\w/]+", word.name):
+                    yield Bridged(word, *(Named(name, word.start) for name in _OF_IMAGES))
+                continue
             at = re.fullmatch(r"([^@\s]+)@([\w/.]+)([@\[\]])([\w.:/]+)", word.name) if word is not None else None
             if word is None or at is None:
                 continue

@@ -167,7 +167,7 @@ def _exchanged(model: Model) -> Iterator[tuple[Joint, str]]:
             for pair in (side, end)
         )
         if abs(x) > abs(y) and abs(v) > abs(u) and u * y - v * x < 0.0:
-            names = f"`{side.first.name}` and `{side.second.name}` differ in x, `{end.second.name}` in y"
+            names = f"`{side.first.name}`, `{side.second.name}` and `{end.second.name}`"
             yield side.first, f"joints {names}: left and right are exchanged for front and rear"
 
 
