@@ -47,8 +47,10 @@ def found(folder, old, new):
             "${side * 0.06}",
             "0.06",
             17,
-            "joints `lf_thigh_joint` and `rf_thigh_joint` are not mirrored as the shapes of their parents are: "
-            "y is 0.06 m for both",
+            (
+                "joints `lf_thigh_joint` and `rf_thigh_joint` are not mirrored as the shapes of their parents are: "
+                "y is 0.06 m for both"
+            ),
         ),
         (
             "${fore * 0.2} ${side * 0.09}",
