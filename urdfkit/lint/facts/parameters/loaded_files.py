@@ -48,7 +48,7 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
             yield file, f'`{use[0]}` in {name} is not replaced; add `subst_value="true"`'
         namespace = _namespace(tag)
         for end, expected in _EXPECTED.items():
-            is_other = re.search(r"(?m)^\s*[\w/]+\s*:", text) and not any(word in text for word in expected)
+            is_other = re.search(r"(?m)^[ \t]*[\w/]+[ \t]*:", text) and not any(word in text for word in expected)
             if namespace.endswith(f"robot_description{end}") and is_other:
                 yield file, f"{name} has no `{expected[0]}`, which MoveIt reads from `robot_description{end}`"
 

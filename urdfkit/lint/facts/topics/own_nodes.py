@@ -21,7 +21,7 @@ _OTHER_PUBLISHERS = (
 )
 """Matches code that publishes in another way, or on topics that it computes."""
 
-_IN_CPP = r"\b(?:create_publisher|advertise)\b\s*(?:<\s*([\w:\s]+?)\s*>\s*\(\s*(?:\"([\w/~]+)\")?)?"
+_IN_CPP = r"\b(?:create_publisher|advertise)\b\s{0,80}(?:<([\w:\s]{1,200})>\s{0,80}\(\s{0,80}(?:\"([\w/~]+)\")?)?"
 _SENSOR_MESSAGES = (
     *("LaserScan", "PointCloud2", "PointCloud", "Odometry", "Imu", "Image", "Range", "NavSatFix"),
     *("PoseWithCovarianceStamped", "TwistWithCovarianceStamped"),
@@ -55,7 +55,7 @@ def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
     """Yield type and topic of each publisher; None for computed ones, and a type None for a syntax error."""
     try:
         tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError):
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         yield None, None
         return
     imports = (node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom))
@@ -83,8 +83,9 @@ def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
 
 def _in_cpp(text: str) -> Iterator[tuple[str | None, str | None]]:
     """Yield type and topic of each publisher; None for computed ones."""
+    used = {at[1] for at in re.finditer(r"\busing\s{1,9}[\w:]{1,200}?::(\w{1,80})\s{0,9};", text)}
     for at in re.finditer(_IN_CPP, text):
-        kind = at[1] or ""
+        kind = (at[1] or "").strip()
         name = kind.rpartition("::")[2]
-        is_message = "::" in kind or re.search(rf"\busing\s+[\w:]+::{re.escape(name)}\s*;", text) is not None
+        is_message = "::" in kind or name in used
         yield (name if name and is_message else None), at[2]
