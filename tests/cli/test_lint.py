@@ -206,7 +206,7 @@ def test_rule_pages_and_catalogue(capsys):
 def test_rules_are_found_by_words_of_their_pages(capsys):
     assert main(["rule", "--search", "MESH", "unit"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines[:-2]] == ["G608", "G617", "G619"]
+    assert [line.split()[0] for line in lines[:-2]] == ["G608", "G617", "G619", "I518"]
     assert main(["rule", "--search", "quaternions", "bananas"]) == 2
     assert "no page of a rule contains `quaternions` and `bananas`" in capsys.readouterr().err
     assert main(["rule", "mesh"]) == 2

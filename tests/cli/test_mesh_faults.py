@@ -50,7 +50,7 @@ FILES = {
     "large.obj": (changed(OBJ, r"v \S+", "v 1e+039"), NOT_FINITE),
     "word.obj": (changed(OBJ, r"v \S+", "v x"), "not a valid OBJ file"),
     "corner.obj": (changed(OBJ, r"f \S+", "f x"), "the corner `x` of a face is not a number"),
-    "cut.dae": (DAE[: len(DAE) // 2], "its XML is invalid in line"),
+    "cut.dae": (DAE[: len(DAE) // 2], "its XML is invalid on line"),
     "source.dae": (
         changed(DAE, r'<input semantic="POSITION" source="#', '<input semantic="POSITION" source="#no'),
         "DA",

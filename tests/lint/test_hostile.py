@@ -64,7 +64,7 @@ HOSTILE = {
     ),
     "tags.urdf": (f"<robot name='r'>{'<a/>' * 300_000}</robot>", "tags.urdf:1:400013: E001 the file has 300002 tags"),
     "a bomb of entities.urdf": (f"<!DOCTYPE r [{ENTITIES}]><robot name='r'>&a9;</robot>", "declares the entity `a0`"),
-    "an external entity.urdf": ('<!DOCTYPE r SYSTEM "file:///etc/passwd"><robot/>', "external entities are refused"),
+    "an external entity.urdf": ('<!DOCTYPE r SYSTEM "file:///etc/passwd"><robot/>', "external entities are rejected"),
     "nesting.urdf": (f"<robot name='r'>{'<a>' * 10_000}{'</a>' * 10_000}</robot>", "nested deeper than 200"),
     "nesting.xacro": (f"<robot name='r'>{'<a>' * 10_000}{'</a>' * 10_000}</robot>", "nested deeper than 200"),
     "value.urdf": (f"<robot name='{'x' * 10_000_000}'/>", "has 10000000 characters; at most 100000 are read"),

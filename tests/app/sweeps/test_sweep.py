@@ -239,5 +239,5 @@ def _kill_itself(scenario: Scenario, run: SweepRun) -> None:
 def test_a_sweep_whose_processes_are_killed_ends_with_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Scenario, "simulate", _kill_itself)
     runs = [SweepRun(number, 0, {}) for number in range(2)]
-    with pytest.raises(UrdfkitError, match="a process of the sweep was killed"):
+    with pytest.raises(UrdfkitError, match="a worker process of the sweep was killed"):
         list(execute(None, runs, workers=2, scheduler=None))  # type: ignore[arg-type]

@@ -88,9 +88,10 @@ def _text(names: tuple[str, ...], jacobian: Array, analysis: JacobianAnalysis, l
         lines.append(" ".join([f"{name:<{width}}", *(f"{number + 0.0:>9.4f}" for number in jacobian[:, k].round(4))]))
     values = " ".join(f"{value:.4g}" for value in analysis.singular_values.round(12))
     lines.append(f"singular values {values}")
+    # In a singular configuration, both depend on rounding errors only.
+    product, ratio = (0.0, math.inf) if analysis.is_singular else (analysis.manipulability, analysis.condition)
     lines.append(
-        f"rank {analysis.rank} of {len(analysis.singular_values)}, manipulability {analysis.manipulability:.4g}, "
-        f"condition {analysis.condition:.4g}"
+        f"rank {analysis.rank} of {len(analysis.singular_values)}, manipulability {product:.4g}, condition {ratio:.4g}"
     )
     lines += [f"singular: no {words}" for words in lost]
     return "\n".join(lines)

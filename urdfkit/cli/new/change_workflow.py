@@ -149,10 +149,11 @@ def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage
     folders = (*([staged] if staged is not None else []), *model.package_path)
 
     def findings_with(overlay: dict[str, str]) -> list[Finding]:
-        # The rule about dependencies reads package.xml from disk, not its new text.
+        # The rule about dependencies reads package.xml from disk, not its new text. The placement reports overlaps,
+        # and the user may choose a place inside of a body.
         adds_dependency = any(alteration.path.name == "package.xml" for alteration in alterations)
         options = Options(
-            ignore=("K956",) if adds_dependency else (),
+            ignore=("S915", "K956") if adds_dependency else ("S915",),
             arguments=model.arguments,
             package_path=folders,
             texts=overlay,

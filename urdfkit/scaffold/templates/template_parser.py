@@ -21,7 +21,7 @@ else:
 NAME = "template.toml"
 
 _TEXT, _TEXTS, _TABLE, _FLAG, _NUMBERS, _TABLES = (
-    "a text",
+    "a string",
     "a list of strings",
     "a table",
     "true or false",

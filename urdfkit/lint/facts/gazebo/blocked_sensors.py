@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, dist, inf, pi, sin, sqrt
+from math import cos, dist, inf, isfinite, pi, sin, sqrt
 
 from urdfkit.description.urdf.geometry import rotate
 from urdfkit.description.urdf.robot import Box, Cylinder, GazeboBlock, Geometry, Pose, SensorTag, Sphere, Vector
@@ -114,12 +114,12 @@ def _half(shape: Geometry) -> Vector:
 
 
 def _pose(sensor: Element) -> Pose | None:
-    """Return the pose of a sensor in its link; None if it is malformed or relative to another frame."""
+    """Return the pose of a sensor in its link; None if it is malformed, infinite or relative to another frame."""
     element = sensor.find("pose")
     if element is None:
         return Pose()
     values = numbers(element.text or "0 0 0 0 0 0")
-    if values is None or len(values) != 6 or element.attributes:
+    if values is None or len(values) != 6 or element.attributes or not all(map(isfinite, values)):
         return None
     return Pose((values[0], values[1], values[2]), (values[3], values[4], values[5]))
 

@@ -147,7 +147,7 @@ class OriginTooFar(RobotRule):
             origin = joint.element.find("origin")
             is_far = distance == largest >= _MIN_DISTANCE and distance > _TIMES_OTHERS * typical > 0.0
             is_scenery = joint.parent in roots and not shapes_of(model.robot.link_by_name[joint.parent or ""])
-            if is_far and origin is not None and not is_scenery:
+            if is_far and joint.parent and origin is not None and not is_scenery:
                 message = f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; all other joints are within"
                 help = "write offsets in metres"
                 yield self.at(model, origin, f"{message} {typical:.3g} m", attribute="xyz", joint=joint.name, help=help)
