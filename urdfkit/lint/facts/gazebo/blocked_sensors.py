@@ -41,20 +41,21 @@ Solid = tuple[str, Geometry, Frame]
 def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]]:
     """Yield the sensors that see nothing but the robot, with the message."""
     groups: dict[str, str] = {}
+    bodies: list[Solid] = []
     for block in model.robot.gazebo:
         for sensor in block.sensors:
             frame = model.frames.get(block.reference or "")
             kind = sensor.type or ""
             if frame is None or kind not in (*_LIDARS, *_CAMERAS):
                 continue
-            groups = groups or _rigid_groups(model)
+            groups, bodies = groups or _rigid_groups(model), bodies or list(_solids(model))
             pose = _pose(sensor.element)
             if pose is None or model.is_unresolved(sensor.element):
                 continue
             eye = frame.moved(pose)
             solids = [
                 solid
-                for solid in _solids(model)
+                for solid in bodies
                 if solid[0] != block.reference
                 and groups.get(solid[0]) == groups.get(block.reference or "")
                 and dist(solid[2].translation, eye.translation) > _PLACED

@@ -1,6 +1,6 @@
 """States of groups that the fake controllers of MoveIt 1 start with: ``initial`` lists groups and their poses.
 
-Source: moveit_plugins/moveit_fake_controller_manager (Melodic, Noetic).
+The list is that of moveit_fake_controller_manager (Noetic); its source was not compared.
 """
 
 from __future__ import annotations

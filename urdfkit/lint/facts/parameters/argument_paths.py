@@ -15,12 +15,11 @@ from urdfkit.lint.facts.control.launch_package_paths import PackagePath, paths_i
 from urdfkit.lint.facts.launch.actions import all_elements, launch_files
 from urdfkit.lint.facts.launch.receivers import receiver
 from urdfkit.lint.facts.launch.records import Call
-from urdfkit.lint.facts.parameters.launch_arguments import expected_values, passed_values
+from urdfkit.lint.facts.parameters.launch_arguments import ARGUMENT_USE, expected_values, passed_values
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
-_USE = r"\$\((?:var|arg)\s+([\w-]+)\s*\)"
-_PATH = rf"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/((?:[^\s\"'<>$(){{}}:;,|&*]|{_USE})+)"
+_PATH = rf"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/((?:[^\s\"'<>$(){{}}:;,|&*]|{ARGUMENT_USE})+)"
 _EXISTENCE_TESTS = r"\b(?:exists|isfile|is_file|isdir|is_dir)\b"
 _NO_FILE = ("", "none", "false", "true")
 _MAX_DEPTH = 4
@@ -56,7 +55,7 @@ def argument_paths(model: Model) -> Iterator[list[ArgumentPath]]:
     arguments = _Arguments(model)
     for file in launch_files(model):
         for path in _with_arguments(file.source):
-            names = list(dict.fromkeys(re.findall(_USE, path.path)))
+            names = list(dict.fromkeys(re.findall(ARGUMENT_USE, path.path)))
             values = [arguments.values(file.source, name) for name in names]
             if len(names) > 1:  # only the defaults, as values belong together
                 values = [each[:1] for each in values]
@@ -66,7 +65,7 @@ def argument_paths(model: Model) -> Iterator[list[ArgumentPath]]:
                 if any(text.strip().lower() in _NO_FILE or text[0] in "/~." or "$" in text for text in texts):
                     continue
                 replaced = dict(zip(names, texts, strict=True))
-                full = re.sub(_USE, partial(_value_of, replaced), path.path)
+                full = re.sub(ARGUMENT_USE, partial(_value_of, replaced), path.path)
                 is_own = value[1] is file.source or value[2] is None
                 origin = None if is_own or value[2] is None else (value[1], value[2])
                 one = PackagePath(path.package, full, path.start, path.end)
@@ -88,7 +87,7 @@ def worlds_without_path(model: Model) -> Iterator[tuple[Source, int, int, str]]:
             if argument is None:
                 continue
             for start, end, text in _values_of(file.source, call, argument):
-                use = re.fullmatch(_USE, text.strip())
+                use = re.fullmatch(ARGUMENT_USE, text.strip())
                 texts = [each[0] for each in arguments.values(file.source, use[1])[:1]] if use else [text]
                 for name in texts:
                     if re.fullmatch(r"\w+", name):
@@ -118,7 +117,7 @@ def _with_arguments(source: Source) -> Iterator[PackagePath]:
     if source.file.endswith(".py"):
         tree = parsed(source) if re.search(_EXISTENCE_TESTS, source.text) is None else None
         paths = paths_in_python(source, tree, ArgumentReader(tree)) if tree is not None else ()
-        yield from (path for path in paths if re.search(_USE, path.path))
+        yield from (path for path in paths if re.search(ARGUMENT_USE, path.path))
         return
     conditional: set[int] = set()
     for element in all_elements(source):
@@ -143,18 +142,24 @@ class _Arguments:
                 for name, value in passed_values(file.source, call, True) if path is not None else ():
                     self._passed.setdefault((shown_path(path or ""), name), []).append((file.source, value))
 
-    def values(self, source: Source, name: str, depth: int = 0) -> list[Value]:
+    def values(
+        self, source: Source, name: str, depth: int = 0, seen: set[tuple[str, str]] | None = None
+    ) -> list[Value]:
         """Return the values of an argument of a launch file, its own default first."""
+        seen = set() if seen is None else seen
+        if (source.file, name) in seen:  # files that include each other would have values without end
+            return []
+        seen.add((source.file, name))
         own = expected_values(source)
         defaults = [value for each, value, is_default in own.values if is_default and each == name]
         found: list[Value] = [(value.name, source, value) for value in defaults]
         found += [(choice, source, None) for choice in own.choices.get(name, ())]
         for file, value in self._passed.get((source.file, name), ()):
-            use = re.fullmatch(_USE, value.name.strip())
+            use = re.fullmatch(ARGUMENT_USE, value.name.strip())
             if use is None:
                 found.append((value.name, file, value))
             elif depth < _MAX_DEPTH:
-                found += self.values(file, use[1], depth + 1)
+                found += self.values(file, use[1], depth + 1, seen)
         first: dict[str, Value] = {}
         for each in found:
             first.setdefault(each[0], each)

@@ -23,7 +23,8 @@ from urdfkit.lint.model.model import Model
 from urdfkit.record import field, record
 
 _TRUTHS = ("true", "false", "1", "0")
-_USE = r"\$\((?:var|arg)\s+([\w-]+)\s*\)"
+ARGUMENT_USE = r"\$\((?:var|arg)\s+([\w-]+)\s*\)"
+"""Matches the use of a launch argument in XML or YAML, or as `ArgumentReader` writes it."""
 
 
 @record(eq=False)
@@ -81,7 +82,11 @@ def expected_values(source: Source) -> Expected:
     if not source.file.endswith(".py"):
         for element in all_elements(source):
             for key in ("if", "unless"):
-                use = re.fullmatch(_USE, element.attributes[key].name.strip()) if key in element.attributes else None
+                use = (
+                    re.fullmatch(ARGUMENT_USE, element.attributes[key].name.strip())
+                    if key in element.attributes
+                    else None
+                )
                 if use is not None:
                     found.conditions.add(use[1])
             choices = [each.attributes.get("value") for each in element.children if each.tag == "choice"]

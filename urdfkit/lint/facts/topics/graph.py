@@ -2,7 +2,7 @@
 
 Sources: gazebo_ros_pkgs (noetic-devel and ros2: gazebo_plugins/src), robot_localization (ros_filter.cpp,
 navsat_transform.cpp), ros2_controllers (diff_drive_controller.cpp, steering_controllers_library.cpp,
-tricycle_controller.cpp) and the READMEs of the packages in `_WITHOUT_SENSORS`, Noetic to Rolling.
+tricycle_controller.cpp). The packages in `_WITHOUT_SENSORS` and the topics of `_DRIVERS` are not compared with sources.
 """
 
 from __future__ import annotations

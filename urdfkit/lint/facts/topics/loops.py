@@ -1,6 +1,7 @@
 """Nodes that read the topic on which they publish, so that their messages go round in a loop.
 
-Sources: nav2_velocity_smoother (velocity_smoother.cpp), twist_mux (twist_mux.cpp), robot_localization (ros_filter.cpp).
+The topics are those of nav2_velocity_smoother, depthimage_to_laserscan, pointcloud_to_laserscan and
+imu_filter_madgwick; only the first were compared with the source (velocity_smoother.cpp).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The messages that the nodes in the packages of a workspace publish, according to their code in Python or C++.
 
-Sources: rclpy (Node.create_publisher), rospy (Publisher), rclcpp (Node::create_publisher), roscpp (advertise).
+The calls are those of rclpy, rospy, rclcpp and roscpp.
 """
 
 from __future__ import annotations
