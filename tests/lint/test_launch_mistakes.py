@@ -360,3 +360,15 @@ def test_gazebo_starts_once_under_a_condition(tmp_path, first, flag, is_reported
     write(cart / "launch/gz.launch.py", SIMULATORS.replace("{first}", first).replace("{flag}", flag))
     message = "Gazebo starts under the condition on line 21 too; both run together"
     assert found(cart, "L111") == ([("gz.launch.py", 22, message)] if is_reported else [])
+
+
+def test_files_that_include_each_other_many_times_are_each_read_once(tmp_path):
+    """80 includes on each side, read again for each include, would be 80⁴ readings: hours."""
+    cart = package(tmp_path / "cart", "catkin", "amcl")
+    for own, other in (("a", "b"), ("b", "a")):
+        include = f'  <include file="$(find cart)/launch/{other}.launch"/>\n'
+        node = '  <node pkg="amcl" type="amcl" name="amcl"/>\n'
+        write(cart / f"launch/{own}.launch", f"<launch>\n{include * 80}{node}</launch>\n")
+    message = "`amcl` and `amcl` both publish the transform from the map to the odometry"
+    expected = {(f"{own}.launch", line, message) for own in "ab" for line in range(3, 83)}
+    assert set(found(cart, "L124")) == expected

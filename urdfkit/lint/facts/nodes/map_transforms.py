@@ -37,6 +37,7 @@ _OFF = ("tf_broadcast", "publish_tf", "transform_publish_period", "pub_map_odom_
 """Parameters that can switch the transform off."""
 
 _MAX_DEPTH = 4
+_MAX_READINGS = 200
 
 
 @record(eq=False)
@@ -54,14 +55,14 @@ def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], 
     Yields:
         The launch file, the start and end of the later action, the names of both publishers, and the message.
     """
-    filters = _map_filters(model)
+    publishers = _Publishers(model, _map_filters(model))
     for name, source in model.related_files.items():
         if not name.endswith(LAUNCH):
             continue
         seen: set[tuple[int, int]] = set()
         names = {argument for start in starts(source)[0] for argument in start.conditions}
         names |= {value[1:] for start in starts(source)[0] for value in start.passed.values() if value[:1] == "$"}
-        found = list(_publishers(source, {each: f"${each}" for each in names}, model, filters, 0))
+        found = publishers.in_file(source, {each: f"${each}" for each in names})
         for first, second in combinations(sorted(found, key=lambda each: each.place), 2):
             common = first.conditions.keys() & second.conditions.keys()
             is_nested = len(common) == min(len(first.conditions), len(second.conditions))
@@ -76,30 +77,55 @@ def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], 
                 yield source, second.place, both, f"{message} if {when}" if when else message
 
 
-def _publishers(
-    source: Source, values: dict[str, str], model: Model, filters: set[tuple[str, str]], depth: int
-) -> Iterator[TransformSource]:
-    actions, _ = starts(source)
-    for start in actions:
-        conditions = _translated(start.conditions, values)
-        if conditions is None:
-            continue
-        label = _label(start, source, filters)
-        if label:
-            yield TransformSource(label, conditions, start.place)
-        elif start.is_include and depth < _MAX_DEPTH:
-            path = receiver(Call(start.package, start.program, *start.place, ()), model)
-            inner = actions_at(path, model) if path is not None else None
-            if inner is None:
+class _Publishers:
+    """Publishers of the transform in the launch files of a model, at any depth of includes.
+
+    A file that is included again with the same values is read once, and after `_MAX_READINGS` files none is read:
+    files that include each other many times would otherwise be read for minutes.
+    """
+
+    def __init__(self, model: Model, filters: set[tuple[str, str]]) -> None:
+        self._model, self._filters = model, filters
+        self._read_files: dict[tuple[str, int, frozenset[tuple[str, str]]], list[TransformSource]] = {}
+
+    def in_file(self, source: Source, values: dict[str, str], depth: int = 0) -> list[TransformSource]:
+        """Return the publishers that a file starts, itself or by its includes.
+
+        Args:
+            source: the launch file.
+            values: the value of each argument: text, or ``$`` and the name of an argument of the first file.
+            depth: how many includes lead to the file.
+        """
+        key = source.file, depth, frozenset(values.items())
+        if key not in self._read_files and len(self._read_files) < _MAX_READINGS:
+            self._read_files[key] = []
+            self._read_files[key] = list(self._publishers_of(source, values, depth))
+        return self._read_files.get(key, [])
+
+    def _publishers_of(self, source: Source, values: dict[str, str], depth: int) -> Iterator[TransformSource]:
+        for start in starts(source)[0]:
+            conditions = _translated(start.conditions, values)
+            if conditions is None:
                 continue
-            defaults = starts(inner.source)[1]
-            shared = {} if inner.is_ros1 else values
-            inner_values = {name: shared.get(name, default) for name, default in defaults.items()}
-            for name, value in start.passed.items():
-                inner_values[name] = values.get(value[1:], "") if value[:1] == "$" else value
-            for each in _publishers(inner.source, inner_values, model, filters, depth + 1):
-                if all(conditions.get(name, value) == value for name, value in each.conditions.items()):
-                    yield TransformSource(each.label, {**conditions, **each.conditions}, start.place)
+            label = _label(start, source, self._filters)
+            if label:
+                yield TransformSource(label, conditions, start.place)
+            elif start.is_include and depth < _MAX_DEPTH:
+                for each in self._included(start, values, depth):
+                    if all(conditions.get(name, value) == value for name, value in each.conditions.items()):
+                        yield TransformSource(each.label, {**conditions, **each.conditions}, start.place)
+
+    def _included(self, start: Start, values: dict[str, str], depth: int) -> list[TransformSource]:
+        path = receiver(Call(start.package, start.program, *start.place, ()), self._model)
+        inner = actions_at(path, self._model) if path is not None else None
+        if inner is None:
+            return []
+        shared = {} if inner.is_ros1 else values
+        inner_values = {name: shared.get(name, default) for name, default in starts(inner.source)[1].items()}
+        for name, value in start.passed.items():
+            inner_values[name] = values.get(value[1:], "") if value[:1] == "$" else value
+        found = self.in_file(inner.source, inner_values, depth + 1)
+        return list({(each.label, *each.conditions.items()): each for each in found}.values())
 
 
 def _translated(conditions: dict[str, bool], values: dict[str, str]) -> dict[str, bool] | None:
