@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from urdfkit.description.urdf.robot import Pose
-from urdfkit.linear_algebra import Array, vector_norm
+from urdfkit.linear_algebra import Array
 
 
 def pose_matrix(pose: Pose) -> Array:
@@ -43,9 +43,10 @@ def pose_matrices(poses: ArrayLike) -> Array:
 
 
 def upright(normal: ArrayLike) -> Array:
-    """Return a rotation that takes z to a unit vector; shape (3, 3)."""
-    z = np.asarray(normal, dtype=float)
-    across = np.eye(3)[int(np.argmin(np.abs(z)))]
-    x = np.cross(across, z)
-    x /= vector_norm(x)
-    return np.column_stack([x, np.cross(z, x), z])
+    """Return the smallest rotation that takes z to a unit vector, as Gazebo turns planes; shape (3, 3)."""
+    x, y, z = np.asarray(normal, dtype=float)
+    across = x * x + y * y
+    if z < 0.0 and across == 0.0:  # opposite to z: half a turn about x
+        return np.diag([1.0, -1.0, -1.0])
+    part = (1.0 - z) / across if z < 0.0 else 1.0 / (1.0 + z)  # equal; each is accurate on its side
+    return np.array([[1.0 - part * x * x, -part * x * y, x], [-part * x * y, 1.0 - part * y * y, y], [-x, -y, z]])

@@ -7,6 +7,7 @@ import pytest
 
 from tests.scene.rays.conftest import random_geometry, random_poses, rotations, scene_of_shapes, shape, units
 from tests.scene.rays.truth import nearest
+from urdfkit.description.sdf import Plane
 from urdfkit.scene.rays import RayTable
 
 POSES = 10_000
@@ -38,6 +39,16 @@ def test_distances_are_true_at_ten_thousand_random_poses(kind: str) -> None:
                 worst, hits = max(worst, abs(found - true)), hits + 1
     assert worst <= 1e-9
     assert hits > POSES // 5
+
+
+def test_a_visual_plane_ends_at_its_sides() -> None:
+    solid = shape(Plane((0.0, 0.0, 1.0), (4.0, 2.0)), role="visual")
+    table = RayTable(scene_of_shapes([solid]), [solid])
+    table.place(np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+    places = np.array([(1.99, 0.99), (-1.99, -0.99), (2.01, 0.0), (-2.01, 0.0), (0.0, 1.01), (0.0, -1.01)])
+    origins = np.column_stack([places, np.full(6, 3.0)])
+    found = table.cast(origins, np.tile([0.0, 0.0, -1.0], (6, 1))).distances
+    assert found.tolist() == [3.0, 3.0, *[np.inf] * 4]
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -41,8 +41,8 @@ def test_planes_are_sent_with_their_pose_and_again_after_a_change(tmp_path: Path
     assert found["color"] == pytest.approx((0.2, 0.6, 0.4, 1.0))
     pose = np.array(found["pose"]).reshape(4, 4)
     assert pose[:3, 3] == pytest.approx([1.0, 2.0, 3.5])
-    assert pose[:3, 2] == pytest.approx([0.0, 1.0, 0.0])  # the normal, turned with the model
-    assert np.linalg.det(pose[:3, :3]) == pytest.approx(1.0)
+    # The normal is turned with the model; the side of 4 m is upright and that of 6 m across, as in Gazebo.
+    assert pose[:3, :3] == pytest.approx(np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]]))
     simulator.world.remove("tilted")
     planes.show()
     assert sent.messages[1:] == [("planes", {"planes": []})]
