@@ -10,13 +10,14 @@ Further calls add tests or replace them::
 
 Then try mutants::
 
-    python -m tests.bench.code_mutants try [COUNT] [SEED]
+    python -m tests.bench.code_mutants try [COUNT] [SEED] [FOLDER…]
 
-It draws expressions at random on the covered lines, changes one comparison, operator, constant, boolean or returned
-value in another copy, and runs the tests that cover the line there, those of the module's own test file first. Modules
-with compiled kernels are ignored: a change would compile them again. Only tests that pass without a change are used,
-and the tests that noticed a mutant run once more without one at the end. Prints each mutant that no test notices, and
-the share noticed by package. Exits with status 1 below 90 %. Needs Linux.
+It draws expressions at random on the covered lines of these folders (such as `urdfkit/sim`; without any, of the
+package), changes one comparison, operator, constant, boolean or returned value in another copy, and runs the tests
+that cover the line there, those of the module's own test file first. Modules with compiled kernels are ignored: a
+change would compile them again. Only tests that pass without a change are used, and the tests that noticed a mutant
+run once more without one at the end. Prints each mutant that no test notices, and the share noticed by package. Exits
+with status 1 below 90 %. Needs Linux.
 """
 
 from __future__ import annotations
@@ -153,10 +154,12 @@ def covering_tests() -> tuple[dict[str, list[str]], dict[str, float]]:
     return tests, seconds
 
 
-def covered_mutants(tests: dict[str, list[str]]) -> list[tuple[Mutant, list[str]]]:
-    """Return the mutants on covered lines, each with its tests."""
+def covered_mutants(tests: dict[str, list[str]], folders: tuple[str, ...]) -> list[tuple[Mutant, list[str]]]:
+    """Return the mutants on covered lines of the folders, each with its tests."""
     found: list[tuple[Mutant, list[str]]] = []
     for file, source in python_files():
+        if not file.startswith(folders):
+            continue
         block_of = {
             line: f"{file}:{block.first}"
             for block in sorted(blocks(file, ast.parse(source)), key=lambda block: (block.first, -block.last))
@@ -264,10 +267,10 @@ def is_noticed_by(copy: Path, mutant: Mutant, tests: list[str], number: int) -> 
         os.utime(target, ns=(status.st_atime_ns, status.st_mtime_ns))
 
 
-def try_mutants(count: int = 200, seed: int = 0) -> int:
+def try_mutants(count: int = 200, seed: int = 0, folders: tuple[str, ...] = ("urdfkit",)) -> int:
     """Try mutants; return the exit status."""
     tests, seconds = covering_tests()
-    drawn = covered_mutants(tests)
+    drawn = covered_mutants(tests, tuple(f"{folder.rstrip('/')}/" for folder in folders))
     print(f"{len(drawn)} mutants on covered lines; trying {count} of them, seed {seed}", flush=True)
     sample = [
         (mutant, chosen_tests(mutant.file, all_tests, seconds), len(all_tests))
@@ -303,4 +306,4 @@ def try_mutants(count: int = 200, seed: int = 0) -> int:
 if __name__ == "__main__":
     if sys.argv[1] == "record":
         sys.exit(record(sys.argv[2:]))
-    sys.exit(try_mutants(*map(int, sys.argv[2:4])))
+    sys.exit(try_mutants(*map(int, sys.argv[2:4]), tuple(sys.argv[4:]) or ("urdfkit",)))

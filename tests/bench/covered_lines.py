@@ -145,7 +145,11 @@ def _may_leave(statement: ast.stmt) -> bool:
 
 @contextmanager
 def copied() -> Iterator[Path]:
-    """Copy the checkout, with the compiled kernels; the shared models next to it stay where they are."""
+    """Copy the checkout, with the compiled kernels; the shared models next to it stay where they are.
+
+    Kernels that are not compiled yet are compiled first: in the copy, each test that needs them would compile them.
+    """
+    subprocess.run([sys.executable, "-m", "urdfkit", "sim", "warmup"], cwd=ROOT, check=True)
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "checkout"
         left_out = shutil.ignore_patterns(".venv", ".git", ".*_cache", RECORDED.name, "node_modules")
