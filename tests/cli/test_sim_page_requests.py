@@ -20,7 +20,6 @@ from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.features import topic_stream
 from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.app.simulation.features.message_values import as_json, number_at, numbers_in
-from urdfkit.app.simulation.features.wall_model import walls
 from urdfkit.app.simulation.loop import FEATURES, DriveLoop
 from urdfkit.errors import SimulationError, UsageError
 from urdfkit.messages import from_fields
@@ -339,6 +338,14 @@ def test_objects_come_move_and_go(ride) -> None:
             do(ride, order, **values)
 
 
+@pytest.mark.parametrize(("rest", "heading"), [((), 0.0), ((0.5,), 0.5), ((0.3, 0.2, 0.7), 0.7), ((0.2, 0.1), 0.0)])
+def test_a_robot_from_the_library_stands_on_the_ground_with_the_heading_of_its_pose(ride, rest, heading: float) -> None:
+    do(ride, "spawn", model="mybot", pose=[2.0, 1.0, 3.0, *rest], name="other")
+    x, y, z, *angles = do(ride, "get_pose", name="other")["pose"]
+    assert (x, y, *angles) == pytest.approx((2.0, 1.0, 0.0, 0.0, heading), abs=1e-3)
+    assert z < 0.5
+
+
 def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
     from urdfkit.view.server.server import Server
 
@@ -391,20 +398,6 @@ def test_walls_have_doors_one_can_drive_through(ride) -> None:
         ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
         spend(ride, FRAME)
     assert ride.simulator.state.base_pose[0] < 1.0  # against the wall
-
-
-@pytest.mark.parametrize(
-    ("corners", "doors", "line"),
-    [
-        ([[0, 0], [0, 0]], [], "two different corners"),
-        ([[0, 0], [1, 0]], [{"segment": 1, "at": 0.5, "width": 0.5}], "there are 1"),
-        ([[0, 0], [1, 0]], [{"segment": 0, "at": 0.9, "width": 0.5}], "does not fit"),
-        ([[0, 0], [4, 0]], [{"segment": 0, "at": 1, "width": 1}, {"segment": 0, "at": 1.8, "width": 1}], "overlap"),
-    ],
-)
-def test_walls_that_cannot_be_built(corners: list, doors: list, line: str) -> None:
-    with pytest.raises(SimulationError, match=line):
-        walls("w", corners, doors)
 
 
 def test_the_world_is_saved_as_it_is(ride, tmp_path) -> None:

@@ -109,6 +109,32 @@ def test_a_round_solid_that_fills_the_picture(solid, most: float) -> None:
     assert np.median(wrong) <= 0.6 * most
 
 
+@pytest.mark.parametrize(
+    "solid",
+    [
+        Box((0.8, 1.0, 1.2)),
+        Sphere(0.6),
+        Cylinder(0.5, 1.2),
+        Cone(0.6, 1.2),
+        Capsule(0.4, 0.6),
+        Ellipsoid((0.4, 0.5, 0.7)),
+    ],
+)
+def test_a_solid_has_the_same_surface_from_all_sides(solid) -> None:
+    gl, rays = both(table_of(visual(solid, "solid")), lit(LAMP, ambient=(0.3, 0.3, 0.3)))
+    for pitch, yaw in ((1.3, 0.2), (0.5, 2.0), (-0.1, -2.5), (-0.7, -1.0), (-1.4, 0.7)):
+        back = 2.0 * np.array([-np.cos(pitch) * np.cos(yaw), -np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
+        eye = pose_matrix(Pose((*back,), (0.0, pitch, yaw)))
+        one, other = gl.take(LENS, eye), rays.take(LENS, eye)
+        same, seen = one.shapes == other.shapes, other.shapes >= 0
+        assert seen.mean() > 0.1
+        assert same.mean() >= 0.995
+        wrong = np.abs(one.depth[seen & same] / other.depth[seen & same] - 1.0)
+        off = np.abs(one.rgb.astype(int) - other.rgb).max(axis=2)[seen & same]
+        assert np.quantile(wrong, 0.98) <= 5e-3  # facets
+        assert np.quantile(off, 0.98) <= 8
+
+
 def test_a_house_from_many_places() -> None:
     world = load_world("house")
     scene, poses = world_scene(world)

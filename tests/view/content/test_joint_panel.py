@@ -18,7 +18,7 @@ URDF = """<robot name="toy">
   <joint name="elbow" type="revolute"><parent link="c"/><child link="d"/>
     <limit lower="-1" upper="2" effort="1" velocity="1"/></joint>
   <joint name="echo" type="revolute"><parent link="d"/><child link="e"/>
-    <limit lower="-1" upper="2" effort="1" velocity="1"/><mimic joint="elbow" multiplier="-1"/></joint>
+    <limit lower="-1" upper="2" effort="1" velocity="1"/><mimic joint="elbow" multiplier="-1" offset="0.2"/></joint>
 </robot>"""
 
 
@@ -30,12 +30,18 @@ def kinematics(tmp_path: Path) -> Kinematics:
 
 
 def test_a_row_for_every_joint_that_moves_in_the_order_written(kinematics: Kinematics) -> None:
-    rows = {row["name"]: row for row in joint_rows(kinematics, {"elbow": 0.5, "echo": -0.5})}
-    assert list(rows) == ["turn", "lift", "elbow", "echo"]
-    assert (rows["turn"]["lower"], rows["turn"]["upper"], rows["turn"]["limited"]) == (-math.pi, math.pi, False)
-    assert (rows["lift"]["lower"], rows["lift"]["upper"], rows["lift"]["unit"]) == (0.1, 0.5, "m")
-    assert (rows["elbow"]["position"], rows["elbow"]["mimic"]) == (0.5, None)
-    assert (rows["echo"]["position"], rows["echo"]["mimic"]) == (-0.5, "elbow")
+    rows = joint_rows(kinematics, {"elbow": 0.5, "echo": -0.3})
+    own = {"mimic": None, "multiplier": 1.0, "offset": 0.0}
+    assert rows == [
+        {"name": "turn", "type": "continuous", "lower": -math.pi, "upper": math.pi, "limited": False, "unit": "rad"}
+        | {"position": 0.0} | own,
+        {"name": "lift", "type": "prismatic", "lower": 0.1, "upper": 0.5, "limited": True, "unit": "m"}
+        | {"position": 0.0} | own,
+        {"name": "elbow", "type": "revolute", "lower": -1.0, "upper": 2.0, "limited": True, "unit": "rad"}
+        | {"position": 0.5} | own,
+        {"name": "echo", "type": "revolute", "lower": -1.0, "upper": 2.0, "limited": True, "unit": "rad"}
+        | {"position": -0.3, "mimic": "elbow", "multiplier": -1.0, "offset": 0.2},
+    ]  # fmt: skip
 
 
 def test_home_is_zero_or_the_nearest_limit(kinematics: Kinematics) -> None:
@@ -54,4 +60,7 @@ def test_planar_and_floating_joints_have_a_row_for_each_number(tmp_path: Path) -
         ("free/trans_x", "m"), ("free/trans_y", "m"), ("free/trans_z", "m"),
         ("free/rot_x", ""), ("free/rot_y", ""), ("free/rot_z", ""), ("free/rot_w", ""),
     ]  # fmt: skip
-    assert {row["name"]: row["position"] for row in rows}["free/rot_w"] == 1.0
+    reach = {row["name"]: (row["lower"], row["upper"], row["limited"], row["position"]) for row in rows}
+    assert reach["plane/theta"] == (-math.pi, math.pi, False, 0.0)
+    assert reach["free/trans_x"] == (-1.0, 1.0, False, 0.0)
+    assert reach["free/rot_w"] == (-1.0, 1.0, False, 1.0)

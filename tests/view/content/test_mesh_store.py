@@ -87,9 +87,10 @@ def test_a_sphere_is_smooth() -> None:
 
 
 def test_a_cylinder_is_smooth_around_and_sharp_at_its_ends() -> None:
-    _, normals, _, _ = unpack(pack(tri_mesh(trimesh.creation.cylinder(1.0, 2.0, sections=48))))
+    points, normals, _, _ = unpack(pack(tri_mesh(trimesh.creation.cylinder(1.0, 2.0, sections=48))))
     side = np.abs(normals[:, 2]) < 0.5
     assert np.allclose(normals[side, 2], 0, atol=2e-3)
+    assert np.allclose(normals[side, :2], points[side, :2], atol=0.05)  # of the radius 1; a facet is 0.13 wide
     assert np.allclose(np.abs(normals[~side, 2]), 1, atol=2e-3)
 
 

@@ -53,9 +53,13 @@ def test_a_camera_of_ros_1(post) -> None:
     (info,) = heard(simulator, "/cam/camera_info")
     f = 64 / (2 * np.tan(0.6))
     assert info.k.reshape(3, 3) == pytest.approx(np.array([[f, 0, 32.5], [0, f, 24.5], [0, 0, 1]]))
-    assert info.p.reshape(3, 4)[:, :3] == pytest.approx(info.k.reshape(3, 3))
+    assert info.p.reshape(3, 4) == pytest.approx(np.column_stack([info.k.reshape(3, 3), np.zeros(3)]))
+    assert info.r.reshape(3, 3).tolist() == np.eye(3).tolist()
     assert (info.width, info.height, info.distortion_model, info.header.frame_id) == (64, 48, "plumb_bob", "optical")
     assert info.d.tolist() == [0.0] * 5
+    region = info.roi
+    not_used = (info.binning_x, info.binning_y, region.x_offset, region.y_offset, region.height, region.width)
+    assert (*not_used, region.do_rectify) == (0, 0, 0, 0, 0, 0, False)
 
 
 def test_what_is_written_about_intrinsics_is_reported(post) -> None:
