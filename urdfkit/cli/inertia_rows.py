@@ -28,7 +28,7 @@ def row_of(
         model: the robot.
         link: one of its links.
         findings: the linter's findings on its inertia.
-        alone: whether it is the only link, so that values that cannot be computed are an error.
+        alone: whether it is the only link, so that values that cannot be computed are errors.
 
     Raises:
         UrdfkitError: the values of the only link cannot be computed.

@@ -13,7 +13,7 @@ SETTLED = 1.0
 PERIOD = 0.05
 """Seconds between two checks."""
 OF_EACH_NODE = ("/parameter_events", "/rosout", "/urdfkit/get_type_description")
-"""Topics of every node of ROS 2, and the service of this one."""
+"""Topics of every ROS 2 node, and the service of this one."""
 
 Types = Mapping[str, Mapping[str, str]]
 """Kind, such as ``topics`` → name → type."""

@@ -34,7 +34,7 @@ def live_actions(topics: LiveTopics, bus: Bus) -> Actions:
 
 
 class ActionlibActions:
-    """Action servers of ROS 1: topics of actionlib.
+    """ROS 1 action servers: topics of actionlib.
 
     Args:
         topics: of the graph.

@@ -1,4 +1,4 @@
-"""Node: interface of a node of ROS 1 or ROS 2 to bridges and commands."""
+"""Node: interface of a ROS 1 or ROS 2 node to bridges and commands."""
 
 from __future__ import annotations
 

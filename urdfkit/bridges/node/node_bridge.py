@@ -135,7 +135,7 @@ class NodeBridge:
         return True
 
     def _serve_actions(self, missing: dict[str, list[str]]) -> None:
-        """Serve the actions of ROS 2, if the library has servers and their types; those of ROS 1 are topics."""
+        """Serve the ROS 2 actions, if the library has servers and their types; those of ROS 1 are topics."""
         if self._node.ros != "ROS 2":
             return
         for name, action in actions(self._bus).items():

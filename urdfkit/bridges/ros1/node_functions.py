@@ -1,4 +1,4 @@
-"""Functions of a node of ROS 1 that the master and other nodes call; each returns a code, a message and a value.
+"""Functions of a ROS 1 node that the master and other nodes call; each returns a code, a message and a value.
 
 https://wiki.ros.org/ROS/Slave_API
 """
@@ -73,7 +73,7 @@ class NodeFunctions:
 
     def _shutdown(self, _caller: str, reason: str = "") -> Answer:
         name = self._node.name
-        if "same name" in reason:  # as the master of ROS 1 words it
+        if "same name" in reason:  # as the ROS 1 master words it
             self._node.report(
                 f"warning: ros1: another node has taken the name {name}, so other nodes no longer find the topics of "
                 "this simulation; start each simulation with a different --namespace"

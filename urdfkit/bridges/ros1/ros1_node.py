@@ -1,4 +1,4 @@
-"""Node of ROS 1: publishers, subscribers and services that a master announces."""
+"""ROS 1 node: publishers, subscribers and services that a master announces."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Ros1Node:
         if is_remote(self.uri) and host == "127.0.0.1":
             report(f"warning: the master is on another machine: set ROS_IP so that nodes there reach {name}")
         elif host != "127.0.0.1":
-            report("warning: everyone on the network can read and publish all topics of ROS 1; it is not encrypted")
+            report("warning: everyone on the network can read and publish all ROS 1 topics; it is not encrypted")
 
     def writer(self, topic: str, type: str, quality: Quality) -> TopicPublisher:
         """Create a publisher."""

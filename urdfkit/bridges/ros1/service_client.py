@@ -1,4 +1,4 @@
-"""Calls of services of ROS 1 by TCPROS."""
+"""Calls of ROS 1 services by TCPROS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Services of ROS 1: one connection carries requests and responses in turns."""
+"""ROS 1 services: one connection carries requests and responses in turns."""
 
 from __future__ import annotations
 

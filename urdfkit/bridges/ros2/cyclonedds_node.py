@@ -1,4 +1,4 @@
-"""Node of ROS 2 by the ``cyclonedds`` wheel alone: its topics match those of real nodes with Fast DDS or Cyclone DDS.
+"""ROS 2 node by the ``cyclonedds`` wheel alone: its topics match those of real nodes with Fast DDS or Cyclone DDS.
 
 Messages are written and read as CDR; the typed interface of the wheel takes 70 ms for an image.
 """

@@ -1,4 +1,4 @@
-"""Node of ROS 2 by rclpy, of a sourced ROS or of the ``ros-rclpy`` wheel."""
+"""ROS 2 node by rclpy, of a sourced ROS or of the ``ros-rclpy`` wheel."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ class RclpyNode:
             answers: Queue[tuple[Any, str | None]] = Queue()
             call(decode_cdr(serialize_message(request), service.request), lambda *each: answers.put(each))
             found, reason = answers.get()
-            if reason is not None:  # a service of ROS 2 has no other way to report a failure than its response
+            if reason is not None:  # a ROS 2 service has no other way to report a failure than its response
                 self._report(f"{service.name}: {reason}")
                 if hasattr(response, "status_message"):
                     response.status_message = reason

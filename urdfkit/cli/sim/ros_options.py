@@ -18,7 +18,7 @@ def add_ros(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--ros2",
         action="store_true",
-        help="publish all topics to nodes of ROS 2 and subscribe to their commands, by rclpy, else Cyclone "
+        help="publish all topics to ROS 2 nodes and subscribe to their commands, by rclpy, else Cyclone "
         "DDS. Discovery stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE extends it",
     )
     group.add_argument(

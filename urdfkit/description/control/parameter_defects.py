@@ -203,7 +203,7 @@ def traction_and_steering(settings: Settings) -> tuple[tuple[str, str], tuple[st
 
 
 def track_and_radius(settings: Settings) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of the parameters for the track and for the radius of the driven wheels in any release of ROS 2.
+    """Return the names of the parameters for the track and for the radius of the driven wheels in any ROS 2 release.
 
     Raises:
         DescriptionError: `front_steering` is neither true nor false.

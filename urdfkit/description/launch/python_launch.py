@@ -1,4 +1,4 @@
-"""Launch files of ROS 2 in Python, read as syntax trees; computed values are unknown."""
+"""ROS 2 Python launch files, read as syntax trees; computed values are unknown."""
 
 from __future__ import annotations
 

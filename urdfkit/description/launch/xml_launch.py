@@ -1,4 +1,4 @@
-"""Launch files of ROS 1 and launch files of ROS 2 in XML and YAML."""
+"""ROS 1 launch files and ROS 2 XML and YAML launch files."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _substituted(text: str, scope: LaunchScope) -> str:
 
 
 def elements_of(settings: Settings, tag: str = "launch") -> Iterator[Element]:
-    """Yield the actions of a launch file in YAML as the elements of the same file in XML.
+    """Yield the actions of a YAML launch file as the elements of the same file in XML.
 
     Args:
         settings: the value of a key of the file.

@@ -20,7 +20,7 @@ HARDWARE = "K965"
 """Code of the rule that compares controllers with ``<ros2_control>``; robots without it cannot contradict it."""
 
 _TRANSMISSIONS = "K963"
-"""The same for controllers of ROS 1 and ``<transmission>``."""
+"""The same for ROS 1 controllers and ``<transmission>``."""
 
 _SIMULATED = ("K969", "K977")
 """Codes of rules that compare topics with the sensors and plugins for Gazebo."""

@@ -42,12 +42,12 @@ _MOVEIT = {
     "moveit_fake_controller_manager": "moveit_fake_controller_manager",
     "moveit_simple_controller_manager": "moveit_simple_controller_manager",
 }
-"""Name before the class of a plugin of MoveIt → its package."""
+"""Name before the class of a MoveIt plugin → its package."""
 
 _USE = re.compile(rf"(?<![\w/-])({'|'.join(_MOVEIT)})/[A-Z]\w+")
 _BUILDER = re.compile(r"MoveItConfigsBuilder\s*\(")
 _LEAST = 2
-"""Number of packages of MoveIt in a package.xml from which on it lists all packages of MoveIt that it needs."""
+"""Number of MoveIt packages in a package.xml from which on it lists all MoveIt packages that it needs."""
 
 
 @record(eq=False)
@@ -67,7 +67,7 @@ class PackageUse:
 
 
 def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[PackageUse]:
-    """Yield the plugins of MoveIt, and the descriptions of `MoveItConfigsBuilder`, in packages that depend on MoveIt.
+    """Yield the MoveIt plugins, and the descriptions of `MoveItConfigsBuilder`, in packages that depend on MoveIt.
 
     Args:
         model: the linted model.

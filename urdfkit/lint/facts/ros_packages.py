@@ -124,7 +124,7 @@ _OF_ONE_PROJECT = r"(?:ament|joint_state|launch|moveit|nav2|ros_gz|ros2|rviz)_"
 """Matches names of packages that one project releases, so that a package without the final ``s`` does not exist."""
 
 _SUCCESSORS = {"rviz": "rviz2", "tf": "tf2_ros"}
-"""Package of ROS 1 → the package of ROS 2 with the same executables."""
+"""ROS 1 package → the ROS 2 package with the same executables."""
 
 
 def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | None:

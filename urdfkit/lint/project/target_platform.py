@@ -19,7 +19,7 @@ DISTROS: dict[str, tuple[str, ...]] = {
 """Target → its releases, oldest first (REP-3, REP-2000, gazebosim.org/docs/all/releases)."""
 
 WITHOUT_CLASSIC = frozenset(("jazzy", "kilted", "lyrical", "rolling"))
-"""Releases of ROS 2 that have neither Gazebo Classic nor its plugins (rosdistro#40759 and #41224)."""
+"""ROS 2 releases that have neither Gazebo Classic nor its plugins (rosdistro#40759 and #41224)."""
 
 _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"
 _BUILD = r"<build(?:tool_depend|_type)\b[^>]*>\s*([\w.-]+)\s*<"

@@ -50,7 +50,7 @@ class Fact:
 class Check:
     """A comparison that must hold if the answers match `when`, and the error message otherwise.
 
-    Without a comparison, answers that match `when` are an error. The message names the options of the questions `named`.
+    Without a comparison, answers that match `when` are errors. The message names the options of the questions `named`.
     """
 
     holds: str

@@ -3,7 +3,7 @@
 from urdfkit.errors import UsageError, did_you_mean
 
 ROS_1 = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic")
-"""Distributions of ROS 1, oldest first."""
+"""ROS 1 distributions, oldest first."""
 
 ROS_2 = (
     "ardent",
@@ -20,7 +20,7 @@ ROS_2 = (
     "lyrical",
     "rolling",
 )
-"""Distributions of ROS 2, oldest first."""
+"""ROS 2 distributions, oldest first."""
 
 
 class Distro:
@@ -45,5 +45,5 @@ class Distro:
             )
 
     def before(self, other: str) -> bool:
-        """Whether this is a distribution of ROS 1 older than `other`."""
+        """Whether this is a ROS 1 distribution older than `other`."""
         return self.name in ROS_1 and ROS_1.index(self.name) < ROS_1.index(other)

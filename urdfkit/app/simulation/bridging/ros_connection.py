@@ -55,7 +55,7 @@ def connect_to_ros(
         report: receives lines about topics and messages that cannot be used.
 
     Raises:
-        UrdfkitError: no library for ROS 2 is installed, no master of ROS 1 runs, or the node cannot start.
+        UrdfkitError: no library for ROS 2 is installed, no ROS 1 master runs, or the node cannot start.
     """
     from urdfkit.bridges.node.node import Node
     from urdfkit.bridges.node.node_bridge import NodeBridge

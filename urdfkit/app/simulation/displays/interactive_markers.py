@@ -50,7 +50,7 @@ class InteractiveMarkerStore:
         """Apply an InteractiveMarkerUpdate, or an InteractiveMarkerInit or response, which contain all markers.
 
         A server numbers its updates. A response contains the updates up to its number; those after it, which may have
-        arrived before the response, are applied again. A server of ROS 1 sends all markers after each update.
+        arrived before the response, are applied again. A ROS 1 server sends all markers after each update.
         """
         if not hasattr(message, "erases"):
             is_response = hasattr(message, "sequence_number")

@@ -1,4 +1,4 @@
-"""What controllers of ROS 2 need: combinations of interfaces, and a section of parameters.
+"""What ROS 2 controllers need: combinations of interfaces, and a section of parameters.
 
 Source: ros2_controllers, *_parameters.yaml and joint_trajectory_controller (Humble to Rolling).
 """

@@ -101,7 +101,7 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
 
 
 def packages_imported(source: Source, others: Collection[str]) -> Iterator[tuple[str, int, int]]:
-    """Yield name, start and end offset of each package that a launch file in Python imports without a condition.
+    """Yield name, start and end offset of each package that a Python launch file imports without a condition.
 
     Args:
         source: the launch file.
@@ -144,7 +144,7 @@ def place(source: Source, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, i
 
 
 def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> Iterator[PackagePath]:
-    """Yield the package paths in a launch file in Python that a reader can evaluate."""
+    """Yield the package paths in a Python launch file that a reader can evaluate."""
     import ast
 
     nodes = list(ast.walk(tree))

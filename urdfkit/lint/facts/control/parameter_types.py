@@ -1,4 +1,4 @@
-"""Types of the numbers in parameter files of ROS 2, which rclcpp and rcl do not convert.
+"""Types of the numbers in ROS 2 parameter files, which rclcpp and rcl do not convert.
 
 Sources: ros2_controllers, *_parameters.yaml (Humble to Rolling); rcl, rcl_yaml_param_parser/src/parse.c.
 """
@@ -41,7 +41,7 @@ _DOUBLE = r"[-+]?(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][-+]?\d+)?"
 
 
 def integers_for_doubles(source: Source) -> Iterator[tuple[Node, str, str]]:
-    """Yield the integers in double parameters of controllers of ROS 2: value, name of the parameter, controller."""
+    """Yield the integers in double parameters of ROS 2 controllers: value, name of the parameter, controller."""
     if PARAMETERS not in source.text:
         return
     for one in settings(source):
@@ -52,7 +52,7 @@ def integers_for_doubles(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 
 def mixed_lists(source: Source) -> Iterator[tuple[Node, Node]]:
-    """Yield the lists of integers and doubles in parameters of ROS 2: name, first integer."""
+    """Yield the lists of integers and doubles in ROS 2 parameters: name, first integer."""
     for document in documents(source)[0] if PARAMETERS in source.text else ():
         sections = [node.find(PARAMETERS) for node in walk(document)]
         for node in (node for section in sections if section is not None for node in walk(section)):

@@ -100,7 +100,7 @@ _OF_ROS1 = r"(effort|position|velocity)_controllers/\w+|(diff_drive)_controller/
 
 
 def _shared_in_ros1(source: Source, listed: list[str]) -> Iterator[tuple[Wanted, str]]:
-    """Yield the joints that two spawned controllers of ROS 1 command; it gives a joint to one controller only."""
+    """Yield the joints that two spawned ROS 1 controllers command; it gives a joint to one controller only."""
     claimed: dict[str, str] = {}
     for one in sorted((one for one in settings(source) if one.name in listed), key=lambda one: listed.index(one.name)):
         kind = re.fullmatch(_OF_ROS1, one.kind)

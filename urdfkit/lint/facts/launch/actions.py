@@ -26,7 +26,7 @@ _PASSED = r"([\w.-]+):="
 
 @record(eq=False)
 class LaunchAction:
-    """An element of a launch file in XML, or the same action in YAML."""
+    """An element of an XML launch file, or the same action in YAML."""
 
     tag: str
     start: int
@@ -74,7 +74,7 @@ def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
 
 @lru_cache(maxsize=400)
 def _roots(source: Source) -> tuple[LaunchAction, ...]:
-    """Return the outermost elements of a launch file in XML or YAML; empty if they are nested too deeply."""
+    """Return the outermost elements of an XML or YAML launch file; empty if they are nested too deeply."""
     try:
         return _elements(source)
     except RecursionError:
@@ -82,7 +82,7 @@ def _roots(source: Source) -> tuple[LaunchAction, ...]:
 
 
 def all_elements(source: Source) -> Iterator[LaunchAction]:
-    """Yield the elements of a launch file in XML or YAML with those inside them, in document order."""
+    """Yield the elements of an XML or YAML launch file with those inside them, in document order."""
     waiting = list(reversed(_roots(source)))
     while waiting:
         element = waiting.pop()

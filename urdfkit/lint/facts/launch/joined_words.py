@@ -1,4 +1,4 @@
-"""Words of commands in launch files in Python that lack a blank or a comma between them."""
+"""Words of commands in Python launch files that lack a blank or a comma between them."""
 
 from __future__ import annotations
 

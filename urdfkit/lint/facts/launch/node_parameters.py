@@ -160,7 +160,7 @@ def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
     for document in documents(source)[0]:
         entries = [(key, key.text.rpartition("/")[2], value) for key, value in document.entries]
         frame, is_filter = document.find("base_link_frame"), document.find("world_frame") is not None
-        if frame is not None and is_filter:  # a file of ROS 1, loaded inside of the node
+        if frame is not None and is_filter:  # a ROS 1 file, loaded inside of the node
             entries = [(frame, "ekf_filter_node", document)]
         for name, kind, section in entries:
             accepted = _parameters().get(kind, ())

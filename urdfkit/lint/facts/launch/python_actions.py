@@ -1,4 +1,4 @@
-"""Actions of launch files in Python, from their syntax tree; computed values are unknown."""
+"""Actions of Python launch files, from their syntax tree; computed values are unknown."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ lifecycle_msgs nav2_common rclpy ros_gz_bridge ros_gz_sim xacro yaml
 
 
 def read_python(source: Source) -> LaunchActions:
-    """Return the actions of a launch file in Python; empty if it cannot be parsed."""
+    """Return the actions of a Python launch file; empty if it cannot be parsed."""
     found = LaunchActions(source)
     if (tree := parsed(source)) is not None:
         _PythonActions(source, tree, found).read()

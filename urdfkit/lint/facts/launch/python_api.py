@@ -108,7 +108,7 @@ _OF_XML = {
     "remapping": "remappings",
     "type": "executable",
 }
-"""Attribute or element of launch files in XML → keyword in Python."""
+"""Attribute or element of XML launch files → keyword in Python."""
 
 OF_FOXY = {
     "node_executable": "executable",

@@ -1,4 +1,4 @@
-"""Names in launch files in Python: imported classes, and names that are defined nowhere."""
+"""Names in Python launch files: imported classes, and names that are defined nowhere."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _ROOTS = frozenset(("launch", "launch_ros"))
 
 
 def python_files(model: Model) -> Iterator[tuple[Source, ast.Module]]:
-    """Yield the launch files in Python of the robot's package and of related packages, and their syntax trees."""
+    """Yield the Python launch files of the robot's package and of related packages, and their syntax trees."""
     for name, source in model.related_files.items():
         if name.endswith((".launch.py", "_launch.py")) and (tree := _tree(source)) is not None:
             yield source, tree

@@ -1,4 +1,4 @@
-"""Arguments that a launch file declares more than once, and nodes of one name in a launch file in Python."""
+"""Arguments that a launch file declares more than once, and nodes of one name in a Python launch file."""
 
 from __future__ import annotations
 

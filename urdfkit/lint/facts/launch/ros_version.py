@@ -1,4 +1,4 @@
-"""ROS version that reads a launch file in XML."""
+"""ROS version that reads an XML launch file."""
 
 from __future__ import annotations
 
@@ -32,6 +32,6 @@ def reads_version(source: Source) -> int:
 
 
 def reads_ros1(source: Source) -> bool:
-    """Return whether roslaunch reads a launch file in XML; by the suffix and ROS 2 words if its words contradict."""
+    """Return whether roslaunch reads an XML launch file; by the suffix and ROS 2 words if its words contradict."""
     version = ros_version(source)
     return version == 1 or (version == 0 and source.file.endswith(".launch") and re.search(_ROS2, source.text) is None)

@@ -1,4 +1,4 @@
-"""Controllers that launch files of ROS 1 spawn, and the parameter files that define and load them."""
+"""Controllers that ROS 1 launch files spawn, and the parameter files that define and load them."""
 
 from __future__ import annotations
 

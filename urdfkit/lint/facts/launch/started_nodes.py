@@ -1,4 +1,4 @@
-"""Nodes that launch files of ROS 2 start, with the names of their parameters."""
+"""Nodes that ROS 2 launch files start, with the names of their parameters."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from urdfkit.record import record
 
 @record(eq=False)
 class StartedNode:
-    """A node of ROS 2.
+    """A ROS 2 node.
 
     Attributes:
         source: the launch file.

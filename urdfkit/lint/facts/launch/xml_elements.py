@@ -1,4 +1,4 @@
-"""Elements and attributes of launch files in XML: of roslaunch (ROS 1) and of launch_xml (ROS 2)."""
+"""Elements and attributes of XML launch files: of roslaunch (ROS 1) and of launch_xml (ROS 2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Actions and keys of launch files in YAML, compared with those of launch_yaml (ROS 2)."""
+"""Actions and keys of YAML launch files, compared with those of launch_yaml (ROS 2)."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _OF_PYTHON = {
     "parameters": "param",
     "remappings": "remap",
 }
-"""Keyword of launch files in Python → key in YAML."""
+"""Keyword of Python launch files → key in YAML."""
 
 _ELEMENTS = ELEMENTS[2]
 
 
 def yaml_launch_defects(source: Source) -> Defects:
-    """Yield the unknown actions and keys in a launch file in YAML, and the required keys that an action lacks."""
+    """Yield the unknown actions and keys in a YAML launch file, and the required keys that an action lacks."""
     for root in documents(source)[0]:
         launch = root.find("launch")
         for key, value in root.entries:

@@ -1,4 +1,4 @@
-"""Controllers of MoveIt, compared with the controllers of ros_control that they command.
+"""MoveIt controllers, compared with the controllers of ros_control that they command.
 
 Sources: moveit_simple_controller_manager (actions by type), ros2_controllers and ros_controllers (actions).
 """
@@ -23,7 +23,7 @@ _ACTIONS = {
     "GripperCommand": ("GripperActionController",),
     "ParallelGripperCommand": ("GripperActionController",),
 }
-"""Type of a controller of MoveIt → classes of controllers with its action."""
+"""Type of a MoveIt controller → classes of controllers with its action."""
 
 _NAMES = {"JointTrajectoryController": "follow_joint_trajectory", "GripperActionController": "gripper_cmd"}
 """Class of a controller → name of its action."""
@@ -41,7 +41,7 @@ def started_controllers(model: Model) -> dict[str, list[ControllerSettings]]:
 def contradictions(
     entry: MoveitEntry, controllers: list[ControllerSettings], model: Model
 ) -> Iterator[tuple[Node, str]]:
-    """Yield the type, the action and the joints of a controller of MoveIt that no controller with its name has."""
+    """Yield the type, the action and the joints of a MoveIt controller that no controller with its name has."""
     from urdfkit.lint.fix_builders import nearest
 
     kind = entry.settings.find("type")
@@ -69,12 +69,12 @@ def contradictions(
 def meant_controller(
     entry: MoveitEntry, controllers: dict[str, list[ControllerSettings]], taken: set[str]
 ) -> str | None:
-    """Return the one controller with the joints of a controller of MoveIt; None if none or several have them.
+    """Return the one controller with the joints of a MoveIt controller; None if none or several have them.
 
     Args:
-        entry: a controller of MoveIt.
+        entry: a MoveIt controller.
         controllers: name → settings of the controllers of ros_control.
-        taken: names of the controllers of MoveIt.
+        taken: names of the MoveIt controllers.
     """
     joints = entry.settings.find("joints")
     wanted = set(joints.texts()) if joints is not None else set()
@@ -95,13 +95,13 @@ def meant_controller(
 def unspawned(
     names: set[str], controllers: dict[str, list[ControllerSettings]], model: Model
 ) -> Iterator[tuple[Span, str]]:
-    """Yield the last spawned controller, and a message, for each controller of MoveIt that no launch file starts.
+    """Yield the last spawned controller, and a message, for each MoveIt controller that no launch file starts.
 
     Nothing is yielded if some arguments of a spawner are computed. A controller whose joints a started controller has
     too is an alternative to that one.
 
     Args:
-        names: names of the controllers of MoveIt.
+        names: names of the MoveIt controllers.
         controllers: name → settings of the controllers of ros_control.
         model: the linted model.
     """

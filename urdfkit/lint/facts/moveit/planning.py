@@ -54,7 +54,7 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
     """Yield misspelt planners and plugins, and planners and groups that do not exist.
 
     Args:
-        source: a YAML file of MoveIt.
+        source: a MoveIt YAML file.
         groups: the names of the groups of the SRDF.
     """
     from urdfkit.lint.fix_builders import nearest
@@ -173,7 +173,7 @@ def _plugins(document: Node) -> Defects:
 
 
 def meant_plugin(text: str) -> str | None:
-    """Return the plugin or planner of MoveIt that a misspelt one stands for; None if the text may be right."""
+    """Return the plugin or MoveIt planner that a misspelt one stands for; None if the text may be right."""
     from urdfkit.lint.fix_builders import nearest
 
     if "/" not in text and "::" not in text:
@@ -199,7 +199,7 @@ def incomplete_entries(source: Source, is_ros2: bool, has_manager: bool) -> Defe
     """Yield groups without a solver and controllers without a required parameter.
 
     Args:
-        source: a YAML file of MoveIt.
+        source: a MoveIt YAML file.
         is_ros2: whether MoveIt 2 reads it.
         has_manager: whether another file names the controller manager of MoveIt.
     """
@@ -325,7 +325,7 @@ def _joints(entry: MoveitEntry) -> tuple[Node, ...]:
 
 
 def controller_defects(entry: MoveitEntry) -> Defects:
-    """Yield values of a controller of MoveIt that have the wrong type, and misspelt actions."""
+    """Yield values of a MoveIt controller that have the wrong type, and misspelt actions."""
     from urdfkit.lint.fix_builders import nearest
 
     name, seen = entry.name.text, set[str]()

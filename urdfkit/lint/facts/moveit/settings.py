@@ -74,7 +74,7 @@ def moveit_yamls(model: Model) -> Iterator[tuple[Source, Element]]:
 
 
 def entries(source: Source) -> Iterator[MoveitEntry]:
-    """Yield the groups, joints and controllers that a YAML file of MoveIt configures."""
+    """Yield the groups, joints and controllers that a MoveIt YAML file configures."""
     for document in documents(source)[0]:
         for top in unwrapped(document):
             for key, value in top.entries:

@@ -1,4 +1,4 @@
-"""Parameters of Nav2 and robot_localization in YAML.
+"""parameters of Nav2 and robot_localization in YAML.
 
 Input: YAML files; output: the sections of nodes and their defects.
 """

@@ -1,4 +1,4 @@
-"""Defects of collision_monitor and of the inputs of twist_mux in parameter files of ROS 2.
+"""Defects of collision_monitor and of the inputs of twist_mux in ROS 2 parameter files.
 
 Sources: ros-navigation/navigation2 (collision_monitor_node.cpp, polygon.cpp, Humble to Rolling), ros-teleop/twist_mux
 (twist_mux.cpp, topic_handle.hpp).

@@ -1,4 +1,4 @@
-"""Speeds that a controller of Nav2 aims at and that the velocity smoother does not let through.
+"""Speeds that a Nav2 controller aims at and that the velocity smoother does not let through.
 
 The parameters are those of nav2_regulated_pure_pursuit_controller, nav2_dwb_controller and nav2_velocity_smoother;
 only the last were compared with the source.

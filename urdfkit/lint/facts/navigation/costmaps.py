@@ -162,7 +162,7 @@ def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float
 
 
 def _inflation(each: Costmap, every: list[Costmap]) -> Defects:
-    """Yield an inflation that ends inside of the robot; the footprint may be in another file of a package of ROS 1."""
+    """Yield an inflation that ends inside of the robot; the footprint may be in another file of a ROS 1 package."""
     shaped = [each]
     if PARAMETERS not in each.source.text:
         package = package_of(Path(each.source.file))

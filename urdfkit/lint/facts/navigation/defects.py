@@ -57,7 +57,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         controllers: the names of the controllers of the robot, in which topics of sensors start.
     """
     if PARAMETERS not in source.text:
-        for root in documents(source)[0] if "base_link_frame" in source.text else ():  # a file of ROS 1
+        for root in documents(source)[0] if "base_link_frame" in source.text else ():  # a ROS 1 file
             for group in (root, *(value for _, value in root.entries)):
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
                     yield from _filter(group, controllers)

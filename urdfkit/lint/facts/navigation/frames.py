@@ -35,7 +35,7 @@ def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
 
 
 def frames_with_slash(source: Source) -> Iterator[tuple[Node, str]]:
-    """Yield the frames of nodes of Nav2 that start with a slash, which tf2 refuses (tf2 of ROS 2, buffer_core.cpp)."""
+    """Yield the frames of Nav2 nodes that start with a slash, which tf2 refuses (tf2 of ROS 2, buffer_core.cpp)."""
     for _, group in sections(source) if "frame: " in source.text else ():
         for node in walk(group):
             for name in ("global_frame", "robot_base_frame"):

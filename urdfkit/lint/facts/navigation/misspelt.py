@@ -69,14 +69,14 @@ def _misspelt_in_ros2(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 @lru_cache(maxsize=4000)
 def _nearest_parameters(name: str) -> tuple[str, ...]:
-    """Return the parameters of Nav2 that a name differs from by a slip, sorted."""
+    """Return the Nav2 parameters that a name differs from by a slip, sorted."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
     return tuple(each for each in sorted(_VALID) if is_slip(name, each))
 
 
 def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
-    """Yield the misspelt parameters and namespaces of costmaps in a YAML file of ROS 1."""
+    """Yield the misspelt parameters and namespaces of costmaps in a ROS 1 YAML file."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
     costmaps = list(costmaps_of_ros1(source))
@@ -93,7 +93,7 @@ def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 
 def _meant_plugin(name: str) -> str | None:
-    """Return the plugin of Nav2 that a misspelt class stands for, or one with its class in another package of Nav2."""
+    """Return the Nav2 plugin that a misspelt class stands for, or one with its class in another Nav2 package."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
     package, _, kind = name.rpartition("::")

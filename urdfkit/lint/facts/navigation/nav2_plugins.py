@@ -1,4 +1,4 @@
-"""Plugins of Nav2: unlisted sections, plugins of Galactic, wrong keys, and parameters that contradict each other.
+"""Nav2 plugins: unlisted sections, plugins of Galactic, wrong keys, and parameters that contradict each other.
 
 Sources: ros-navigation/navigation2 (nav2_bringup/params/nav2_params.yaml, nav2_behaviors/plugins.xml,
 nav2_behavior_server: behavior_server.cpp, nav2_dwb_controller: kinematic_parameters.cpp, xy_theta_iterator.hpp,
@@ -31,7 +31,7 @@ _SLOWING = ("decel_lim_x", "decel_lim_y", "decel_lim_theta")
 
 
 def nav2_defects(source: Source) -> Defects:
-    """Yield the defects of the plugins and frames of Nav2 in a parameter file of ROS 2."""
+    """Yield the defects of the plugins and frames of Nav2 in a ROS 2 parameter file."""
     if PARAMETERS not in source.text:
         return
     groups = {key.text.strip("/").rpartition("/")[2]: (key, group) for key, group in sections(source)}

@@ -40,7 +40,7 @@ _PACKAGES = {
     "carrot_planner": ("CarrotPlanner",),
     "costmap_2d": ("StaticLayer", "ObstacleLayer", "VoxelLayer", "InflationLayer", "NonPersistentVoxelLayer"),
 }
-"""Package of ROS 1 → the classes of its plugins."""
+"""ROS 1 package → the classes of its plugins."""
 
 _OTHER_NAMES = {
     "DWAPlannerROS": {
@@ -97,7 +97,7 @@ def _unread_sections(files: list[Source]) -> Defects:
 
 
 def _in_ros1(source: Source) -> Defects:
-    """Yield the unknown classes of planners and layers, and the parameters of other planners, in a file of ROS 1."""
+    """Yield the unknown classes of planners and layers, and the parameters of other planners, in a ROS 1 file."""
     for node in (each for root in documents(source)[0] for each in walk(root)):
         for key, value in node.entries:
             for old, new in _OTHER_NAMES.get(key.text, {}).items():
@@ -118,7 +118,7 @@ def _in_ros1(source: Source) -> Defects:
 
 
 def _mixed(source: Source) -> Defects:
-    """Yield the plugins of Nav2 with the separator of another release than most plugins of the file."""
+    """Yield the Nav2 plugins with the separator of another release than most plugins of the file."""
     found: dict[str, list[Node]] = {"/": [], "::": []}
     for node in (each for _, group in sections(source) for each in walk(group)):
         plugin = node.find("plugin")

@@ -1,4 +1,4 @@
-"""Parameter files of navigation: the sections of nodes of ROS 2, the costmaps of ROS 1."""
+"""Parameter files of navigation: the sections of ROS 2 nodes, the costmaps of ROS 1."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ COSTMAPS = ("local_costmap", "global_costmap")
 
 
 def sections(source: Source) -> Iterator[tuple[Node, Node]]:
-    """Yield the names of nodes of ROS 2 in a YAML file with their parameters; namespaces are passed over."""
+    """Yield the names of ROS 2 nodes in a YAML file with their parameters; namespaces are passed over."""
     waiting = [(entry, 0) for root in documents(source)[0] for entry in root.entries]
     while waiting:
         (key, value), depth = waiting.pop(0)
@@ -36,7 +36,7 @@ def costmaps_not_nested(source: Source) -> Iterator[tuple[Node, str]]:
 
 
 def costmaps_of_ros1(source: Source) -> Iterator[Node]:
-    """Yield the groups of parameters of costmap_2d in a YAML file of ROS 1."""
+    """Yield the groups of parameters of costmap_2d in a ROS 1 YAML file."""
     if "footprint" not in source.text and "frame" not in source.text:
         return
     for node in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):

@@ -1,4 +1,4 @@
-"""Descriptions in xacro that launch files in Python load as text."""
+"""Descriptions in xacro that Python launch files load as text."""
 
 from __future__ import annotations
 

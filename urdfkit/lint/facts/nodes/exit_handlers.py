@@ -1,4 +1,4 @@
-"""Event handlers of launch files in Python that wait for the end of a node that does not end."""
+"""Event handlers of Python launch files that wait for the end of a node that does not end."""
 
 from __future__ import annotations
 

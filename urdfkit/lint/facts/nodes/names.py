@@ -40,13 +40,13 @@ _DEFAULTS = {
 _RELEASED_NAMES = NODES | {*_DEFAULTS.values()}
 
 _RENAMED = {"recoveries_server": "behavior_server"}
-"""Former name of a server of Nav2 → its name (migration guide of Nav2, Galactic to Humble)."""
+"""Former name of a Nav2 server → its name (migration guide of Nav2, Galactic to Humble)."""
 
 _UNMANAGED = ("map_saver_server", "lifecycle_manager", "costmap_filter_info_server")
-"""Programs of Nav2 that often start without a lifecycle manager of their own file."""
+"""Nav2 programs that often start without a lifecycle manager of their own file."""
 
 _COMPUTED = r"\.(?:append|extend|insert)\(|\+=|OpaqueFunction|ComposableNode|nav2_bringup"
-"""Matches a launch file in Python whose lists of nodes may be longer than they are written."""
+"""Matches a Python launch file whose lists of nodes may be longer than they are written."""
 
 _SEVERAL = ("controller_manager", "moveit_ros_move_group", "moveit_servo", "gazebo_ros", "ros_gz_sim", "rviz2")
 """Packages whose processes contain nodes of further names."""
@@ -208,7 +208,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
 def _unlisted(
     source: Source, listed: set[str], elsewhere: set[str], nodes: list[LaunchedNode]
 ) -> Iterator[tuple[str, Span]]:
-    """Yield the servers of Nav2 that no list of their launch file names, although another server is listed."""
+    """Yield the Nav2 servers that no list of their launch file names, although another server is listed."""
     own = [node for node in nodes if node.source is source]
     servers = [(node, node.program if not node.has_name else name_of_node(node)) for node in own if _is_server(node)]
     if not any(name in listed for _, name in servers) or _lists_more(source):

@@ -1,4 +1,4 @@
-"""Nodes of launch files of ROS 2 that do not use the clock of the simulation although those around them do."""
+"""Nodes of ROS 2 launch files that do not use the clock of the simulation although those around them do."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parameters of nodes of ROS 1 in launch files in XML: types, values, former names and order.
+"""Parameters of ROS 1 nodes in XML launch files: types, values, former names and order.
 
 Sources (Noetic): ros-planning/navigation (amcl_node.cpp, costmap_2d_ros.cpp), ros-perception/slam_gmapping
 (slam_gmapping.cpp), ros-teleop/teleop_twist_joy (teleop_twist_joy.cpp), cra-ros-pkg/robot_localization
@@ -68,7 +68,7 @@ def parameters_in_launch(source: Source) -> Iterator[tuple[str, dict[str, tuple[
 
 
 def launch_parameter_defects(source: Source) -> Defects:
-    """Yield the defects of the parameters of nodes in a launch file of ROS 1, at the value or name."""
+    """Yield the defects of the parameters of nodes in a ROS 1 launch file, at the value or name."""
     if not reads_ros1(source):
         return
     for package, written in parameters_in_launch(source):

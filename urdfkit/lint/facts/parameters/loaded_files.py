@@ -1,4 +1,4 @@
-"""Parameter files that launch files of ROS 1 load, and the parameters of MoveIt and Gazebo that depend on these.
+"""Parameter files that ROS 1 launch files load, and the parameters of MoveIt and Gazebo that depend on these.
 
 The behaviour is that of roslaunch, MoveIt and gazebo_ros of Noetic; the sources were not compared.
 """
@@ -31,7 +31,7 @@ _EXPECTED = {
 
 
 def loaded_file_defects(source: Source, model: Model) -> Defects:
-    """Yield the files that a launch file of ROS 1 loads without substitution or into the wrong namespace."""
+    """Yield the files that a ROS 1 launch file loads without substitution or into the wrong namespace."""
     for tag in _tags(source):
         attributes = tag.attributes
         file = attributes.get("file")
@@ -53,7 +53,7 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
 
 
 def unloaded_pipelines(source: Source, model: Model) -> Defects:
-    """Yield the values of ``default_planning_pipeline`` that no launch file of ROS 1 loads."""
+    """Yield the values of ``default_planning_pipeline`` that no ROS 1 launch file loads."""
     if "default_planning_pipeline" not in source.text:
         return
     texts = [uncommented(file) for file in ros1_files(model)]

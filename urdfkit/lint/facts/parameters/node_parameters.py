@@ -1,4 +1,4 @@
-"""Parameters of well-known nodes of ROS 2 in YAML: values of the wrong type, names of other nodes, nested lists."""
+"""Parameters of well-known ROS 2 nodes in YAML: values of the wrong type, names of other nodes, nested lists."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _FREE = {"text": 0, "bool": 1, "int": 2, "double": 3}
 
 
 def node_defects(source: Source) -> Defects:
-    """Yield values of the wrong type, renamed parameters and nested lists in a YAML file of ROS 2."""
+    """Yield values of the wrong type, renamed parameters and nested lists in a ROS 2 YAML file."""
     for key, group in sections(source) if PARAMETERS in source.text else ():
         kind = kind_of(key, group)
         others, written = renamed().get(kind, {}), {name for name, _, _ in parameters(group)}
@@ -136,7 +136,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _renamed_in_groups(node: Node) -> Defects:
-    """Yield the parameters of ROS 1 in plugins and observation sources of Nav2."""
+    """Yield the ROS 1 parameters in plugins and observation sources of Nav2."""
     kinds = [value.text for key, value in node.entries if key.text in ("plugin", "data_type")]
     names = {key.text for key, _ in node.entries}
     for kind in kinds:

@@ -1,4 +1,4 @@
-"""Types, values and former names of the parameters of well-known nodes of ROS 2.
+"""Types, values and former names of the parameters of well-known ROS 2 nodes.
 
 Sources (Humble to Rolling): ros-navigation/navigation2 (collision_monitor_node.cpp, polygon.cpp, source.cpp,
 velocity_smoother.cpp, amcl_node.cpp, bt_action_server_impl.hpp, controller_server.cpp, costmap_2d_ros.cpp,
@@ -204,7 +204,7 @@ OF_GROUPS = {
     "LaserScan": {"obstacle_range": "obstacle_max_range", "raytrace_range": "raytrace_max_range"},
     "PointCloud2": {"obstacle_range": "obstacle_max_range", "raytrace_range": "raytrace_max_range"},
 }
-"""Plugin or type of data of a group → parameters of ROS 1 → those of Nav2 since Galactic."""
+"""Plugin or type of data of a group → ROS 1 parameters → those of Nav2 since Galactic."""
 
 
 @cache

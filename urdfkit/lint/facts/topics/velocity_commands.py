@@ -53,7 +53,7 @@ _OF_ROS1 = {
     "robot_state_publisher": ("joint_states",),
     "twist_mux": ("cmd_vel_out",),
 }
-"""Package of ROS 1 → topics of its node that launch files usually remap."""
+"""ROS 1 package → topics of its node that launch files usually remap."""
 
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
 
@@ -214,7 +214,7 @@ def _mux_topics(model: Model, kinds: tuple[str, ...] = ("topics",)) -> Iterator[
 
 
 def _drives(model: Model) -> dict[str, str]:
-    """Return the names of the drive controllers of ROS 2 → their type."""
+    """Return the names of the ROS 2 drive controllers → their type."""
     found = {each.name: each.kind.text for source in yamls(model) for each in declared(source)}
     return {name: kind for name, kind in found.items() if "diff_drive" in kind or "_steering_controller/" in kind}
 

@@ -20,9 +20,9 @@ class HardwareInterfaceUnknown(RobotRule):
 
     ## What it does
     Checks for ``<hardwareInterface>`` values that nearly match an interface of the hardware_interface package.
-    Interfaces of other packages are accepted. If the robot uses gazebo_ros_control, a note reports each transmission
-    that its default hardware does not simulate: with several joints, or with an interface other than those of the
-    position, velocity and effort of a joint.
+    Interfaces of other packages are accepted. If the robot uses gazebo_ros_control, transmissions that its default
+    hardware does not simulate are notes: those with several joints, and those with an interface other than position,
+    velocity or effort.
 
     ## Why is this bad?
     Loading fails with "No suitable hardware interface", and controllers for the joint do not start. `urdfkit sim`

@@ -22,16 +22,17 @@ class HardwareMismatch(RobotRule):
     """The hardware of ``<ros2_control>`` does not match the Gazebo plugin of the robot.
 
     ## What it does
-    Each plugin that runs the controller manager in Gazebo has its own hardware: gazebo_ros2_control has
-    ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
-    ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that nearly match
-    one of these or ``mock_components/GenericSystem``, also in branches of ``xacro:if`` that are not expanded. Other
-    hardware is a note if the robot has such a plugin, because its joints are not controlled in a simulation.
+    Each plugin that runs the controller manager in Gazebo has its own hardware: ``gazebo_ros2_control/GazeboSystem``
+    for gazebo_ros2_control, ``gz_ros2_control/GazeboSimSystem`` for gz_ros2_control, and
+    ``ign_ros2_control/IgnitionSystem`` for ign_ros2_control. The rule reports hardware of another plugin, and names
+    that nearly match one of these or ``mock_components/GenericSystem``, also in branches of ``xacro:if`` that are not
+    expanded. Other hardware is a note if the robot has such a plugin, because its joints are not controlled in a
+    simulation.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
     ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware. After Humble,
-    gz_ros2_control does not have the hardware of ign_ros2_control (its gz_hardware_plugins.xml), only the name of the
-    plugin.
+    gz_ros2_control still accepts the plugin name of ign_ros2_control but no longer its hardware (see
+    gz_hardware_plugins.xml).
 
     ## Why is this bad?
     pluginlib does not find the class, and the controller manager stops.

@@ -10,13 +10,13 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class DuplicateSingletonElement(RobotRule):
-    """An element that may occur once occurs twice.
+    """An element that may occur only once occurs twice.
 
     ## What it does
     Checks for a second ``<inertial>``, ``<mass>``, ``<inertia>``, ``<origin>``, ``<geometry>``, ``<axis>``, ``<limit>``
     … in the same element, and for a plugin parameter that is given twice with different values although the plugin
-    reads only one. A second plugin parameter is a warning, because no reader rejects it, and a second material a note,
-    because it only changes a colour.
+    reads only one. A second plugin parameter is a warning, because no reader rejects it. A second material is a note,
+    because it changes only a colour.
 
     ## Why is this bad?
     Readers differ: urdfdom and Gazebo use the first element, others the last, and MuJoCo rejects the file ("repeated

@@ -26,7 +26,7 @@ class NanOrInf(RobotRule):
     instead of infinity. Joint limits may be infinite.
 
     ## Why is this bad?
-    One such value makes every position not-a-number, and simulators stop or diverge.
+    A single such value turns all positions into NaN, and simulators stop or diverge.
 
     ## Example
     ```xml

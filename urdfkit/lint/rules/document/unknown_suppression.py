@@ -20,7 +20,7 @@ class UnknownSuppression(Rule):
     a comment suppresses every rule.
 
     ## Why is this bad?
-    The comment does not suppress the intended finding, and may later suppress a new rule that has this code.
+    The comment does not suppress the intended finding, and may later suppress a new rule with this code.
 
     ## Example
     ```xml

@@ -12,7 +12,7 @@ class UrdfVersionTooLow(RobotRule):
     ## What it does
     Checks for ``quat_xyzw`` and ``<capsule>``, which need ``version="1.1"`` in ``<robot>``, and for limits of
     ``acceleration``, ``deceleration`` and ``jerk``, which need ``version="1.2"``. A robot without the attribute is URDF
-    1.0. The first use of each is reported. The limits are notes, because readers only ignore them.
+    1.0. The first use of each feature is reported. The limits are notes, because readers merely ignore them.
 
     ## Why is this bad?
     Readers ignore attributes of a later version: without ``quat_xyzw`` the part has no rotation. urdfdom drops the
@@ -43,8 +43,8 @@ class UrdfVersionTooLow(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix declares the version. ROS releases before Lyrical reject a robot of version 1.1 or later, and its
-    attributes have an effect from then on.
+    Unsafe: the fix declares the version. ROS releases before Lyrical reject a robot of version 1.1 or later. In other
+    releases, the attributes then take effect.
     """
 
     code = "E021"

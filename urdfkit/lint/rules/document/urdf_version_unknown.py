@@ -11,8 +11,8 @@ class UrdfVersionUnknown(RobotRule):
     Checks that the attribute ``version`` of ``<robot>`` is 1.0, 1.1 or 1.2. A robot without the attribute is URDF 1.0.
 
     ## Why is this bad?
-    urdfdom, the reader of ROS, Pinocchio and Gazebo, rejects a robot of an unknown version, and a version that is not
-    written as two numbers with a dot.
+    urdfdom, which ROS, Pinocchio and Gazebo use, rejects unknown versions and versions that are not written as two
+    numbers with a dot.
 
     ## Example
     ```xml

@@ -4,16 +4,16 @@ from urdfkit.description.urdf.version import VERSIONS, shown, written_version
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _READERS = ("lyrical", "rolling")
-"""Releases of ROS 2 with urdfdom 5.1 or later, which reads URDF 1.1 and 1.2."""
+"""ROS 2 releases with urdfdom 5.1 or later, which reads URDF 1.1 and 1.2."""
 
 
 class UrdfVersionUnsupported(RobotRule):
-    """The release of ROS does not read the URDF version of the robot.
+    """The targeted ROS release does not support the URDF version of the robot.
 
     ## What it does
-    With ``--target ros1``, ``ros2`` or ``classic``, checks that the release reads the ``version`` of ``<robot>``. ROS 2
-    Lyrical and Rolling read URDF 1.1 and 1.2. All other releases read URDF 1.0 only. For ``ros2`` without a release the
-    finding is a note.
+    With ``--target ros1``, ``ros2`` or ``classic``, checks that the release supports the ``version`` of ``<robot>``.
+    ROS 2 Lyrical and Rolling read URDF 1.1 and 1.2. All other releases read URDF 1.0 only. For ``ros2`` without a
+    release the finding is a note.
 
     ## Why is this bad?
     urdfdom 3 and 4, the readers of Humble and Jazzy, reject the robot: "only version 1.0 is currently supported".

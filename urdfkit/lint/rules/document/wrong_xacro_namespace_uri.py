@@ -7,7 +7,7 @@ from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class WrongXacroNamespaceUri(SourceRule):
-    """The prefix ``xacro:`` is bound to a namespace other than that of xacro.
+    """The prefix ``xacro:`` is not bound to the namespace of xacro.
 
     ## What it does
     Compares ``xmlns:xacro`` on the root element with the namespaces that xacro has used:

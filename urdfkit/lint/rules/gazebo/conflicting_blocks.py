@@ -11,7 +11,7 @@ class ConflictingBlocks(RobotRule):
     Compares the values in all ``<gazebo>`` blocks that reference the same link or joint.
 
     ## Why is this bad?
-    Only one of the values takes effect, and which one is not specified.
+    Only one of the values takes effect, and SDF does not specify which one.
 
     ## Example
     ```xml

@@ -35,7 +35,7 @@ class FrictionDirectionZero(RobotRule):
     ```
 
     ## Fix safety
-    Safe: without ``<fdir1>`` friction is isotropic, which is also the best possible effect of a zero vector.
+    Safe: a zero vector specifies no direction, and without ``<fdir1>`` friction is isotropic.
     """
 
     code = "Z814"

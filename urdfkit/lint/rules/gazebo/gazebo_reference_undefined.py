@@ -13,10 +13,10 @@ class GazeboReferenceUndefined(RobotRule):
     """A ``<gazebo reference="…">`` block refers to an undefined link or joint, or holds a sensor without a link.
 
     ## What it does
-    Compares the reference of each ``<gazebo>`` block with the links and joints of the robot. This is an error if the
-    name is misspelt or if the block contains a sensor or a plugin, and a warning otherwise: a leftover block.
-    Sensors in a block without reference are errors; sensors other than ``force_torque`` in the block of a joint, and
-    ``force_torque`` in the block of a link, are warnings.
+    Compares the reference of each ``<gazebo>`` block with the links and joints of the robot. The finding is an error if
+    the name is misspelt or if the block contains a sensor or a plugin. Otherwise the block is probably a leftover, and
+    the finding is a warning. Sensors in a block without reference are errors; sensors other than ``force_torque`` in
+    the block of a joint, and ``force_torque`` in the block of a link, are warnings.
 
     ## Why is this bad?
     Gazebo silently drops the block with its friction, colours and sensors.

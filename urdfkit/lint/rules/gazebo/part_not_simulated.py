@@ -11,8 +11,8 @@ class PartNotSimulated(RobotRule):
     With ``--target urdfkit``, checks for plugins, sensors and controllers of types that urdfkit does not simulate.
 
     ## Why is this bad?
-    The simulation runs, but without the part, and ``--strict`` rejects the robot. In Gazebo, or on the real
-    robot, the part may work, so it is reported only for urdfkit.
+    The simulation runs without the part, and with ``--strict`` it rejects the robot. The part may work in Gazebo or on
+    the real robot, so it is reported only for this target.
 
     ## Example
     ```xml

@@ -19,8 +19,8 @@ class PluginJointUndefined(RobotRule):
 
     ## What it does
     Checks the joint parameters of known plugins (differential drive, skid steer, joint state publisher, joint
-    controllers), including the default names of missing parameters. Joints with an axis that a drive turns must not be
-    fixed. A joint that one plugin names twice is a warning.
+    controllers), including the default names of missing parameters. A joint that a drive turns must not be fixed. A
+    joint that one plugin names twice is a warning.
 
     ## Why is this bad?
     The plugin does nothing, or crashes the simulator.

@@ -14,8 +14,8 @@ class PluginParamUnknown(RobotRule):
     checked.
 
     ## Why is this bad?
-    The plugin ignores the element and uses its default: ``<torque>`` does not make the wheels of the differential drive
-    stronger, ``<wheelTorque>`` does.
+    The plugin ignores the element and uses its default. For example, the differential drive reads ``<wheelTorque>`` and
+    ignores ``<torque>``.
 
     ## Example
     ```xml

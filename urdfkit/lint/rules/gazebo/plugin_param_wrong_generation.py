@@ -12,8 +12,8 @@ class PluginParamWrongGeneration(RobotRule):
 
     ## What it does
     ROS 1 spells parameters in camelCase, ROS 2 and Gazebo Sim in snake_case, and some parameters have changed their
-    meaning. The rule reports parameters that only another generation of the plugin reads. The generation is that of the
-    target, or else the one in which most parameters of the plugin are spelt.
+    meaning. The rule reports parameters that only another generation of the plugin reads. The target determines the
+    generation; without a target, the spelling of most parameters of the plugin does.
 
     ## Why is this bad?
     The plugin ignores the parameter and uses its default, so topics, frames and wheels differ from the description.

@@ -14,8 +14,9 @@ class PluginUnknown(RobotRule):
 
     ## What it does
     Checks for file names that nearly match a library of gazebo_ros_pkgs, Gazebo Sim or another widely used package. For
-    libraries of Gazebo Sim, also checks that ``name`` is a class of the library. Names that resemble no known library,
-    that a package of the workspace builds, or of which an installed Python package has a table, are accepted.
+    libraries of Gazebo Sim, also checks that ``name`` is a class of the library. A library is accepted if its name
+    resembles no known library, if a package of the workspace builds it, or if an installed Python package lists its
+    parameters.
 
     ## Why is this bad?
     Gazebo reports "Failed to load plugin", and the robot has no drive or sensor. Gazebo Sim looks up a plugin by the

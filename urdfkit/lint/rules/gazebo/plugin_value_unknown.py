@@ -11,7 +11,7 @@ _SIM_TYPES = ("gazebo_ros_control/DefaultRobotHWSim",)
 
 
 class PluginValueUnknown(RobotRule):
-    """A Gazebo plugin has a value that it cannot read.
+    """A Gazebo plugin has a parameter with an invalid value.
 
     ## What it does
     Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers,

@@ -17,7 +17,8 @@ class SensorFrameUndefined(RobotRule):
     ``map`` and ``odom`` are accepted as frames outside the robot.
 
     ## Why is this bad?
-    Images and scans are published in a frame that is missing in TF: RViz shows nothing, and localisation waits.
+    Images and scans are published in a frame that is missing in TF: RViz shows nothing, and localisation waits for the
+    transform.
 
     ## Example
     ```xml

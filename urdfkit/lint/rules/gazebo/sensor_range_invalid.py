@@ -19,7 +19,7 @@ class SensorRangeInvalid(RobotRule):
     unknown types of ``<noise>``.
 
     ## Why is this bad?
-    The sensor measures nothing, and the simulator of urdfkit omits it.
+    The sensor measures nothing, and ``urdfkit sim`` omits it.
 
     ## Example
     ```xml

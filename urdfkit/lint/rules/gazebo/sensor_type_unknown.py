@@ -30,7 +30,7 @@ class SensorTypeUnknown(RobotRule):
 
     ## What it does
     Checks for a ``type`` of a ``<sensor>`` that nearly matches an SDF type or is a common misnomer, and, for Gazebo
-    classic, for types that only Gazebo Sim has. Other types are accepted, because plugins may define their own.
+    Classic, for types that only Gazebo Sim supports. Other types are accepted, because plugins may define their own.
 
     ## Why is this bad?
     Gazebo reports "Unable to create sensor" and publishes nothing.

@@ -20,7 +20,7 @@ class TopicWithBlank(RobotRule):
     name is ignored. Letters, digits, ``_``, ``/``, ``.``, ``:``, ``~`` and ``-`` are valid.
 
     ## Why is this bad?
-    ROS throws "invalid topic name" and Gazebo does not advertise the topic, so nothing receives the data of the sensor.
+    ROS throws "invalid topic name" and Gazebo does not advertise the topic, so no program receives the sensor data.
 
     ## Example
     ```xml

@@ -15,8 +15,8 @@ class ColladaUpAxis(RobotRule):
     Reads ``<up_axis>`` and ``<unit>`` at the beginning of COLLADA files. A unit other than the metre is a note.
 
     ## Why is this bad?
-    RViz and Gazebo do not rotate the mesh, other readers do: the mesh is upright in one program and lies on its side in
-    another.
+    RViz and Gazebo do not rotate the mesh, but other readers do. The mesh is upright in one program and lies on its
+    side in another.
 
     ## Example
     ```xml

@@ -42,7 +42,7 @@ class CollisionUnlikeVisual(RobotRule):
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was
-    changed in one of the two shapes only.
+    changed in only one of the two shapes.
 
     ## Example
     ```xml

@@ -36,8 +36,8 @@ class MeshAbsolutePath(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes ``package://`` and the folder before ``meshes``, if the path has one. That folder may not be
-    a package.
+    Unsafe: the fix writes a ``package://`` path with the folder above ``meshes`` as the package, but that folder may
+    not be a package. No fix is offered for paths without a folder ``meshes``.
     """
 
     code = "G603"

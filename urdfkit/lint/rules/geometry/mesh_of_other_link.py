@@ -9,12 +9,12 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MeshOfOtherLink(RobotRule):
-    """The visual and collision meshes of a link are those of two different links.
+    """The visual and collision meshes of a link belong to two different links.
 
     ## What it does
     Compares the file names, without suffix, of the visual and collision mesh of links that have one of each. Reports a
-    link whose meshes have two different names, if one of these names is that of both meshes of another link, and most
-    of the links have meshes of one name.
+    link whose two meshes have different names if both meshes of another link have one of these names. The two meshes of
+    most other links must have the same name.
 
     ## Why is this bad?
     A part is drawn in the shape of another part, or collides with it. The usual cause is a copied ``<mesh>``.

@@ -11,8 +11,8 @@ class MeshPackageUnknown(RobotRule):
     """The package of a mesh is not found.
 
     ## What it does
-    Looks up the packages of ``package://`` and ``model://`` in the workspace and the environment. The meshes of
-    one package are shown as one finding.
+    Looks up the packages of ``package://`` and ``model://`` in the workspace and the environment. All meshes of one
+    missing package are a single finding.
 
     ## Why is this bad?
     The robot is shown without its meshes. The package name may be misspelt, or the package may be missing on this

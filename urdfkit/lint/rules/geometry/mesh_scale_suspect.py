@@ -31,13 +31,15 @@ class MeshScaleSuspect(RobotRule):
 
     ## What it does
     Compares the scaled size of a mesh with the median of the distances between joints and the sizes of the other
-    shapes. If all meshes may have the same wrong scale, compares each mesh of more than 50 m with sizes that do not
-    depend on meshes: distances between joints, boxes, cylinders and spheres, or else the radius of gyration √(I/m) of
-    its link. If no such size exists, reports meshes of more than 100 m. A building or a ground, recognised by the names
-    of the root link and of its mesh, may be large.
+    shapes.
+
+    All meshes may have the same wrong scale. Therefore, meshes of more than 50 m are also compared with sizes that do
+    not depend on meshes: distances between joints, boxes, cylinders and spheres. If the robot has none of these, a mesh
+    is compared with the radius of gyration √(I/m) of its link. If the link has no inertia either, meshes of more than
+    100 m are reported. Buildings and grounds, recognised by the names of the root link and of its mesh, may be large.
 
     ## Why is this bad?
-    CAD programs export millimetres, URDF expects metres: the part is huge, or too small to see.
+    CAD programs often export millimetres, but URDF expects metres. The part is huge, or too small to see.
 
     ## Example
     ```xml

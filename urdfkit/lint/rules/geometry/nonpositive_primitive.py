@@ -25,8 +25,8 @@ class NonpositivePrimitive(RobotRule):
 
     ## What it does
     Checks for sizes, radii and lengths that are zero or negative, and for zeros in the scale of a mesh; a negative
-    scale mirrors the mesh. Zero is a warning, and a note for the radius of a
-    collision sphere, which exporters write for a contact point; both are errors for MuJoCo.
+    scale mirrors the mesh. A size of zero is a warning. A collision sphere with a radius of zero is a note, because
+    exporters write such spheres for contact points. With ``--target mujoco``, both are errors.
 
     ## Why is this bad?
     MuJoCo and physics engines reject the shape ("size must be positive"); elsewhere it is invisible and does not

@@ -11,8 +11,8 @@ class WheelOffItsAxis(RobotRule):
 
     ## What it does
     Checks links of continuous joints, or of joints without a type, whose visual is a single cylinder along the axis or
-    a single sphere. The centre of the shape must lie on the axis. A sphere is accepted if its collision shape has
-    the same offset: it is taken for a swivel caster.
+    a single sphere. The centre of the shape must lie on the axis. A sphere is accepted if its collision shape has the
+    same offset, because it is probably a swivel caster.
 
     ## Why is this bad?
     The wheel orbits its axis instead of rolling. The usual cause is an origin that was copied from another link; the

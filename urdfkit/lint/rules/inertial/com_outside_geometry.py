@@ -29,11 +29,12 @@ class ComOutsideGeometry(RobotRule):
     """The centre of mass of a link is outside its shapes.
 
     ## What it does
-    Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link.
-    A centre of mass inside the shapes is reported if the inertia is that of the only shape about its centre, and the
-    centre of mass is elsewhere. Collision shapes alone often cover only a part of the body, so for links without
-    visuals only a distance of more than the diagonal of the box is reported. Links with an unreadable mesh are not
-    checked.
+    Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link. A
+    centre of mass inside the box is also reported if the link has a single shape, the inertia is that of this shape
+    about its own centre, and the centre of mass is elsewhere.
+
+    Collision shapes often cover only a part of the body. Therefore, a link without visuals is reported only if the
+    distance exceeds the diagonal of the box. Links with an unreadable mesh are not checked.
 
     ## Why is this bad?
     The robot tips over, or swings as if its mass hung next to it. The usual cause is an origin of the shape that was

@@ -17,17 +17,17 @@ _UNLIKE = 0.25
 
 
 class InertiaAxesSwapped(RobotRule):
-    """The moments of inertia of a link belong to other axes than its shapes.
+    """The moments of inertia of a link are assigned to the wrong axes.
 
     ## What it does
-    Compares ixx, iyy and izz of each link with the moments of its shapes with uniform density. Reports the tensor if
-    it differs from them, but agrees to 10 % in another order of the axes, or to 2 % with the moments of a cylinder with
-    radius and length swapped. A common factor of the moments in another order is ignored. Meshes count as their
-    bounding boxes.
+    Compares ixx, iyy and izz of each link with the moments of its shapes with uniform density. Reports the tensor if it
+    differs from them, but agrees to 10 % in another order of the axes, or to 2 % with the moments of a cylinder with
+    radius and length swapped. If the order differs, a common factor of the three moments is ignored. Meshes count as
+    their bounding boxes.
 
     ## Why is this bad?
-    The link turns about its axes with the inertia of other axes. Often a cylinder was turned, as that of a wheel,
-    but the tensor is that of a cylinder along z.
+    The link accelerates too easily about one axis and too slowly about another. Often the cylinder of a wheel was
+    rotated, but its tensor is still that of a cylinder along z.
 
     ## Example
     ```xml

@@ -21,8 +21,9 @@ class InertiaDecimalSlip(RobotRule):
 
     ## What it does
     Compares the diagonal of the tensor with that of the link's shapes at uniform density. If two moments agree and the
-    third is off by a factor of 10, 100 or 1000, its decimal point is wrong. A tensor with products of inertia that
-    another link repeats, except for signs, is accepted: a CAD program computed it for mirrored parts.
+    third is off by a factor of 10, 100 or 1000, its decimal point is wrong. A tensor with products of inertia is
+    accepted if another link has the same tensor except for signs, because a CAD program computed both for mirrored
+    parts.
 
     ## Why is this bad?
     The link rotates about one axis as if it were much lighter or heavier than it is.

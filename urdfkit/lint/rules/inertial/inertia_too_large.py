@@ -24,8 +24,8 @@ class InertiaTooLarge(RobotRule):
 
     ## What it does
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all visual
-    and collision shapes of the link. Collision shapes alone often cover only a part of the body, so for links without
-    visuals only a radius of more than three times the distance is reported. Links with an unreadable mesh are not
+    and collision shapes of the link. Collision shapes often cover only a part of the body. Therefore, a link without
+    visuals is reported only if the radius exceeds three times the distance. Links with an unreadable mesh are not
     checked. A link that is fixed to a body with more than twenty times its mass and inertia is a note.
 
     ## Why is this bad?

@@ -10,8 +10,8 @@ class InertiaTransposed(RobotRule):
     """The entries of an inertia tensor are in the wrong order.
 
     ## What it does
-    Checks tensors that no body can have, and reorders their entries by the conventions of other programs. Reports the
-    tensor if exactly one of these orders gives a possible tensor.
+    Checks for physically impossible tensors, and reorders their entries by the conventions of other programs. Reports
+    the tensor if exactly one of these orders gives a possible tensor.
 
     ## Why is this bad?
     URDF expects ixx, ixy, ixz, iyy, iyz, izz. A moment in the place of a product makes the tensor impossible: MuJoCo

@@ -18,9 +18,9 @@ class InertiaTriangleInequality(RobotRule):
     """The principal moments of an inertia tensor violate the triangle inequality.
 
     ## What it does
-    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C. A violation of up to
-    0.0001 C is a note and of up to 0.001 C a warning, as rounded numbers cause them. The tensor of a link that a fixed
-    joint attaches to its parent is a warning, because readers merge both; a link that is fixed to a body with more than
+    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C. Rounded numbers cause small
+    violations: up to 0.0001 C they are notes, and up to 0.001 C they are warnings. The tensor of a link on a fixed
+    joint is a warning, because readers merge the link with its parent. A link that is fixed to a body with more than
     twenty times its mass and inertia is a note.
 
     ## Why is this bad?

@@ -10,7 +10,7 @@ class InertiaZero(RobotRule):
 
     ## What it does
     Checks for tensors of zeros on links with a mass. The finding is an error if a joint moves the link, and a note if
-    the link is fixed to others and so represents a point mass.
+    the link is fixed to others and therefore represents a point mass.
 
     ## Why is this bad?
     Nothing resists the rotation of the link: simulators divide by zero, and MuJoCo rejects the model.

@@ -16,8 +16,8 @@ class MovingLinkWithoutInertial(RobotRule):
     warning.
 
     A robot without any ``<inertial>`` has a single finding if at least two of these conditions hold: joints move its
-    links, these links have shapes, and the target is a simulator. Otherwise the finding is a note, or missing if the
-    robot has no collision shape. Without such a target, it is also a note if the robot has no ``<gazebo>``,
+    links, these links have shapes, and the target is a simulator. Otherwise the finding is a note, and a robot without
+    collision shapes is not reported. Without such a target, it is also a note if the robot has no ``<gazebo>``,
     ``<transmission>`` and ``<ros2_control>``, because such a robot describes only kinematics.
 
     ## Why is this bad?

@@ -14,14 +14,13 @@ class TwinsDiffer(RobotRule):
     """A part and its counterpart on the other side, or at the other end, differ in mass or size.
 
     ## What it does
-    Compares the child links of joints with one parent whose names differ in a side (``left`` and ``right``) or an
-    end (``front`` and ``rear``) only. Reports masses and sizes of parts on two sides that differ by a factor of
-    two, and those of parts at two ends that differ by a factor of 10, 100 or 1000. Meshes are also compared by their
-    ``scale``.
+    Compares child links of the same parent if the names of their joints differ only in a side (``left`` and ``right``)
+    or an end (``front`` and ``rear``). Reports parts on two sides if their masses or sizes differ by a factor of two,
+    and parts at two ends if these differ by a factor of 10, 100 or 1000. Meshes are also compared by their ``scale``.
 
     ## Why is this bad?
-    The robot leans, drifts, or one of its wheels is too small to reach the ground. The usual cause is a wrong
-    decimal point or unit.
+    The robot leans or drifts, or one of its wheels is too small to reach the ground. The usual cause is a wrong decimal
+    point or unit.
 
     ## Example
     ```xml

@@ -10,9 +10,9 @@ class EffortOrVelocityZero(RobotRule):
     """The effort or velocity limit of a joint is zero.
 
     ## What it does
-    Checks for ``effort="0"`` and ``velocity="0"`` in the limits of movable joints. This is a warning with ``--target
-    gz``, ``classic`` or ``isaac``, or if it is the only one among four or more joints; else a note, because models that
-    are only displayed often omit real limits.
+    Checks for ``effort="0"`` and ``velocity="0"`` in the limits of movable joints. The finding is a warning with
+    ``--target gz``, ``classic`` or ``isaac``, or if only one of four or more joints has such a limit. Otherwise it is a
+    note, because models that are only displayed often omit real limits.
 
     ## Why is this bad?
     Simulators enforce the limits: with zero effort the joint cannot hold a load, and with zero velocity it never moves.

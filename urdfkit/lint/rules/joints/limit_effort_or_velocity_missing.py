@@ -12,10 +12,10 @@ class LimitEffortOrVelocityMissing(RobotRule):
 
     ## What it does
     Checks for ``<limit>`` elements of ``revolute``, ``prismatic`` and ``continuous`` joints without ``effort`` or
-    ``velocity``. Robots of URDF 1.2 are not checked: there both attributes are optional.
+    ``velocity``. Robots of URDF 1.2 are not checked, because URDF 1.2 makes both attributes optional.
 
     ## Why is this bad?
-    Until URDF 1.1 both attributes are required in every ``<limit>``: without them urdfdom rejects the robot.
+    Up to URDF 1.1, both attributes are required in every ``<limit>``. Without them, urdfdom rejects the robot.
 
     ## Example
     ```xml

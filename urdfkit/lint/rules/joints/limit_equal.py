@@ -9,7 +9,7 @@ class LimitEqual(RobotRule):
     """The lower and upper limits of a joint are equal.
 
     ## What it does
-    Compares ``lower`` and ``upper`` of ``revolute`` and ``prismatic`` joints. Both default to 0, until URDF 1.2, which
+    Compares ``lower`` and ``upper`` of ``revolute`` and ``prismatic`` joints. Both default to 0 before URDF 1.2, which
     requires them. Equal limits other than 0 are reported as a note, because they are probably intended.
 
     ## Why is this bad?

@@ -8,15 +8,15 @@ _PART = 0.5
 
 
 class MimicBeyondLimits(RobotRule):
-    """A joint mimics positions that its own limits exclude.
+    """A mimic joint follows another joint to positions outside its own limits.
 
     ## What it does
     Computes the positions of each joint with ``<mimic>`` while the other joint moves between its limits:
     multiplier · position + offset. Reports the joint if its own limits contain less than half of these positions.
 
     ## Why is this bad?
-    A simulator stops the joint at its limit, or the two joints push against each other. The usual causes are the sign
-    of the multiplier, or the name of a wrong joint.
+    A simulator stops the joint at its limit, or the two joints push against each other. The usual cause is the sign of
+    the multiplier or the wrong joint name.
 
     ## Example
     ```xml

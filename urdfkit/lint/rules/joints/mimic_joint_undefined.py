@@ -7,7 +7,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MimicJointUndefined(RobotRule):
-    """A joint mimics an undefined joint, an unsuitable joint or itself.
+    """A joint mimics an undefined or unsuitable joint, or itself.
 
     ## What it does
     Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
@@ -61,7 +61,7 @@ class MimicJointUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the name of the joint with the most similar name.
+    Unsafe: the fix writes the nearest joint name, which may not be the intended one.
     """
 
     code = "J416"

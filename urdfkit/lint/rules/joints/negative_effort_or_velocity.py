@@ -14,12 +14,12 @@ _UNITS = {
 
 
 class NegativeEffortOrVelocity(RobotRule):
-    """The limit of effort, velocity, acceleration or jerk of a joint is negative.
+    """An effort, velocity, acceleration or jerk limit of a joint is negative.
 
     ## What it does
-    Checks for negative ``effort`` and ``velocity`` values in ``<limit>``, and since URDF 1.2 for negative
-    ``acceleration``, ``deceleration`` and ``jerk``. A limit of -1 at every joint is a note: exporters write it for no
-    limit, and Gazebo reads it so.
+    Checks for negative ``effort`` and ``velocity`` values in ``<limit>`` and, since URDF 1.2, for negative
+    ``acceleration``, ``deceleration`` and ``jerk`` values. A limit of -1 at every joint is a note, because exporters
+    write it to mean no limit, as Gazebo reads it.
 
     ## Why is this bad?
     These limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.

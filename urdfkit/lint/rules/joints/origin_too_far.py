@@ -41,20 +41,20 @@ Corners = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 class OriginTooFar(RobotRule):
-    """A joint is far from its parent link, compared with the size of all links.
+    """A joint is implausibly far from its parent link.
 
     ## What it does
     Reports joints that are at least 10 m, and at least 20 times the extent of the largest link, from the frame of their
     parent link.
 
-    If the sizes of all shapes are known, also reports a joint whose child link, with everything attached to it, is
-    separated from the rest of the robot by a gap that is longer than most of the robot, and longer than the largest
-    link or than four times the two links of the joint, whichever is smaller.
+    If the sizes of all shapes are known, also reports a joint that separates its child link, with everything attached
+    to it, from the rest of the robot. The gap must be longer than most of the robot, and longer than the largest link
+    or than four times the two links of the joint, whichever is smaller.
 
-    A moving joint outside the bounding box of its parent link is reported if all other moving joints are in or at the
-    boxes of theirs. Joints of a root link without shapes are not checked, because they place the robot in the world.
-
-    If no shape is known, because the meshes are missing, the distance is compared with those of all other joints.
+    A moving joint outside the bounding box of its parent link is reported if every other moving joint is inside or at
+    the box of its parent link. Joints of a root link without shapes are not checked, because they place the robot in
+    the world. If no size is known, because the meshes are missing, the distance is compared with the distances of all
+    other joints.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,

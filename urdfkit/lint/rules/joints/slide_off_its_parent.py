@@ -16,12 +16,12 @@ Corners = tuple[Vector, Vector]
 
 
 class SlideOffItsParent(RobotRule):
-    """A prismatic joint moves its child link off the parent link, but along another axis they stay in contact.
+    """A prismatic joint moves its child link off the parent link, probably along the wrong axis.
 
     ## What it does
-    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if they touch
-    with the joint at zero, have a gap of 30 % of the stroke at a limit, and touch at both limits with another axis of
-    the joint frame.
+    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if the boxes
+    touch at position zero, are separated by 30 % of the stroke at a limit, and would touch at both limits if the joint
+    moved along another axis of its frame.
 
     ## Why is this bad?
     The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x.

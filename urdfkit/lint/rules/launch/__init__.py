@@ -1,4 +1,4 @@
 """Rules on launch files: their arguments, the arguments of included files and of xacro, and executables.
 
-They read launch files in XML, YAML and Python without executing them.
+They read XML, YAML and Python launch files without executing them.
 """

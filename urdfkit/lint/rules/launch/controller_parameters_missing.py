@@ -15,10 +15,10 @@ class ControllerParametersMissing(RobotRule):
     """A launch file starts controllers without their parameters.
 
     ## What it does
-    In ROS 1, compares the controllers that the launch files spawn with the YAML files that define them: a launch file
-    must load the file, and into the namespace of the spawner (if both are in one file, see K960). MoveIt's simple
-    controller manager needs a file with ``controller_list``. In ROS 2, ``ros2_control_node`` needs parameters unless
-    the spawners pass them.
+    In ROS 1, compares the controllers that the launch files spawn with the YAML files that define them. A launch file
+    must load the YAML file into the namespace of the spawner; if one launch file does both, K960 checks the namespace.
+    MoveIt's simple controller manager needs a file with ``controller_list``. In ROS 2, ``ros2_control_node`` needs
+    parameters unless the spawners pass them.
 
     ## Why is this bad?
     The spawner fails, since the controller has no type, and the robot does not move.

@@ -6,7 +6,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.launch.executables import Executables
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
-_RELEASES = {1: "ROS 1", 2: "this release of ROS 2"}
+_RELEASES = {1: "ROS 1", 2: "this ROS 2 release"}
 
 _RENAMED = {
     ("robot_state_publisher", "state_publisher"): "robot_state_publisher",
@@ -18,7 +18,7 @@ _RENAMED = {
 
 
 class ExecutableUnknown(RobotRule):
-    """A launch file starts an executable that its package does not have.
+    """A launch file starts an executable that does not exist in its package.
 
     ## What it does
     Compares the ``exec``, ``type`` or ``executable`` of nodes with the executables that CMakeLists.txt, setup.py or

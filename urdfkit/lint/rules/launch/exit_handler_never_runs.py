@@ -6,14 +6,14 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ExitHandlerNeverRuns(RobotRule):
-    """A launch file starts nodes after the end of a node that does not end.
+    """A launch file starts nodes after the exit of a node that never exits.
 
     ## What it does
-    Checks ``OnProcessExit`` whose target is a node that runs until the launch ends, such as ``ros2_control_node`` or
-    ``robot_state_publisher``, and that starts nodes.
+    Checks for ``OnProcessExit`` handlers that start nodes and whose target runs until the launch ends, such as
+    ``ros2_control_node`` or ``robot_state_publisher``.
 
     ## Why is this bad?
-    The nodes of the handler never start, without an error: for example, no controllers are loaded.
+    The nodes of the handler never start, and no error is reported. For example, no controllers are loaded.
 
     ## Example
     ```python

@@ -18,7 +18,7 @@ _SCOPES = frozenset(("eval", "exec", "globals", "locals", "vars"))
 
 
 class LaunchActionUnused(RobotRule):
-    """A launch file in Python creates an action that it does not add to the launch description.
+    """A Python launch file creates an action that it does not add to the launch description.
 
     ## What it does
     Checks the variables of Python launch files that hold a node, an argument, an include or another action. An action

@@ -14,7 +14,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LaunchArgumentUnknown(RobotRule):
-    """A launch file passes an argument that the included launch file or the xacro file does not have.
+    """A launch file passes an argument that the included launch file or the xacro file does not declare.
 
     ## What it does
     Compares the arguments of includes with the arguments of launch files in these packages and of common launch files

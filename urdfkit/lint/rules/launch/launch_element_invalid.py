@@ -10,7 +10,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LaunchElementInvalid(RobotRule):
-    """A launch file in XML or YAML has an unknown element or attribute, or lacks a required attribute.
+    """An XML or YAML launch file has an unknown element or attribute, or lacks a required attribute.
 
     ## What it does
     Compares elements, attributes and substitutions with those of roslaunch for packages built by catkin, and with those
@@ -89,7 +89,7 @@ class LaunchElementInvalid(RobotRule):
                 yield self._at(source, use.span(1), message)
             elif use[1] not in defined and (near := nearest(use[1], defined, cutoff=0.6)) is not None:
                 yield self._at(source, use.span(1), f"unknown substitution `{use[1]}`" + Suggestion(near, use[1]))
-        # launch reports an unclosed substitution of ROS 2 itself; roslaunch takes it as text.
+        # launch reports an unclosed ROS 2 substitution itself; roslaunch takes it as text.
         for use in re.finditer(r"\$\((?:find|arg|env|optenv|anon)\s[^()\"'<>$]*(?=[\"'<>]|\$\()", uncommented(source)):
             yield self._at(source, use.span(), f"`{use[0]}` has no closing parenthesis")
 

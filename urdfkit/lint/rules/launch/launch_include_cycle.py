@@ -16,7 +16,7 @@ class LaunchIncludeCycle(RobotRule):
     once.
 
     ## Why is this bad?
-    The launch includes the file without end, until it stops with an error.
+    The launch includes the file again and again until it stops with an error.
 
     ## Example
     ```xml

@@ -38,7 +38,7 @@ class LaunchNameMisspelt(RobotRule):
     Checks the spelling of these names:
 
     - quoted words in launch files that resemble ``use_sim_time``, ``robot_description``, ``joint_states``,
-      ``controller_manager`` or a plugin of MoveIt
+      ``controller_manager`` or a MoveIt plugin
     - keys in YAML files that resemble ``use_sim_time`` or ``robot_description``
     - topics that the remappings of common nodes replace, and parameters of common nodes such as
       ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``

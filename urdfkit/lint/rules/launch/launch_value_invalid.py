@@ -25,7 +25,7 @@ _AROUND = (
 
 
 class LaunchValueInvalid(RobotRule):
-    """An attribute of a launch file in XML has a value that the launch cannot use.
+    """An attribute of an XML launch file has an invalid value.
 
     ## What it does
     Checks the XML launch files of ROS for:
@@ -35,15 +35,15 @@ class LaunchValueInvalid(RobotRule):
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
-    - parameter files with substitutions but without ``subst_value``, and files of MoveIt in the wrong namespace
+    - parameter files with substitutions but without ``subst_value``, and MoveIt files in the wrong namespace
     - a default planning pipeline that is not loaded
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
-    - a robot description in the wrong attribute: ``textfile`` for a file without xacro, ``command`` for a command,
-      ``value`` for a value
+    - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,
+      and ``value`` for the text itself
 
     ## Why is this bad?
-    The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A dump
-    overwrites the file that the package should load.
+    The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A
+    ``<rosparam>`` dump overwrites the file that the package should load.
 
     ## Example
     ```xml

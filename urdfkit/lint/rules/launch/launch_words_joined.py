@@ -4,11 +4,11 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LaunchWordsJoined(RobotRule):
-    """A launch file in Python joins two words of a command.
+    """A Python launch file joins two words of a command without a space.
 
     ## What it does
-    Checks the parts of ``Command([...])``, which are joined without blanks, and the texts in ``arguments`` and ``cmd``,
-    which Python joins if no comma is between them.
+    Checks the parts of ``Command([...])``, which launch joins without spaces, and the strings in ``arguments`` and
+    ``cmd``, which Python joins where a comma is missing.
 
     ## Why is this bad?
     The command is not found, or the program reads an option with the wrong name or value.

@@ -6,7 +6,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MapTransformPublishedTwice(RobotRule):
-    """A launch file starts two nodes that publish the transform from the map to the odometry.
+    """A launch file starts two nodes that publish the transform from the map frame to the odometry frame.
 
     ## What it does
     Finds amcl, gmapping, slam_toolbox, cartographer and the filters of robot_localization with ``world_frame`` map,
@@ -14,8 +14,8 @@ class MapTransformPublishedTwice(RobotRule):
     Computed conditions and files with groups or namespaces are not checked.
 
     ## Why is this bad?
-    The robot jumps on the map between two poses. Often a condition is inverted, so that the other value of the argument
-    starts no localization.
+    The robot jumps on the map between two poses. Often a condition is inverted: one value of the argument then starts
+    both nodes, and the other value starts none.
 
     ## Example
     ```xml

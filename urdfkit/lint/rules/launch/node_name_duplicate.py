@@ -7,7 +7,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class NodeNameDuplicate(RobotRule):
-    """A launch file in XML or Python starts two nodes with the same name in the same namespace.
+    """An XML or Python launch file starts two nodes with the same name in the same namespace.
 
     ## What it does
     Compares the names of all nodes in a launch file. Names with substitutions are not checked. Two nodes that both have
@@ -16,7 +16,8 @@ class NodeNameDuplicate(RobotRule):
     the same condition.
 
     ## Why is this bad?
-    roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and parameters and services reach either one.
+    roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and a parameter or a service request may
+    reach either one.
 
     ## Example
     ```xml

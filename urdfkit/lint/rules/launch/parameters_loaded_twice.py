@@ -9,14 +9,14 @@ _FIXED = ("command", "file", "ns", "param")
 
 
 class ParametersLoadedTwice(RobotRule):
-    """A launch file of ROS 1 loads a file twice into one namespace.
+    """A ROS 1 launch file loads a file twice into one namespace.
 
     ## What it does
-    Compares the ``<rosparam>`` elements of a node, a group or the file that run in each launch.
+    Compares the ``<rosparam>`` elements without a condition in a node, a group or the whole file.
 
     ## Why is this bad?
     The second load has no effect. Usually it was meant for another namespace, such as that of the other costmap, which
-    has no parameters now.
+    then lacks its parameters.
 
     ## Example
     ```xml

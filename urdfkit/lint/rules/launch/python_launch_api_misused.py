@@ -12,7 +12,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class PythonLaunchApiMisused(RobotRule):
-    """A launch file in Python imports a name that a launch package does not have, or calls a class wrongly.
+    """A Python launch file imports an unknown name from a launch package, or calls a class with wrong arguments.
 
     ## What it does
     Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils`` with the names

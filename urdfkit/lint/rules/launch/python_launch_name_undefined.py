@@ -12,7 +12,7 @@ _FUNCTION = "generate_launch_description"
 
 
 class PythonLaunchNameUndefined(RobotRule):
-    """A launch file in Python uses a name that it neither imports nor defines, or returns no description.
+    """A Python launch file uses a name that it neither imports nor defines, or returns no description.
 
     ## What it does
     Compares the names that a launch file uses with the names that it imports or defines anywhere, and with the built-in

@@ -6,17 +6,16 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class SimulationTimeInconsistent(RobotRule):
-    """A node uses another clock than the nodes around it.
+    """A node and the other nodes of its launch file use different clocks.
 
     ## What it does
     Checks ROS 2 launch files. Reports filters, localization, navigation servers and ``robot_state_publisher`` without
-    ``use_sim_time`` if another node of the same package in the file has it. In files that always start Gazebo, reports
-    included launch files and such nodes whose ``use_sim_time`` is false. The rule also reads parameter files. Files
-    that set the parameter for all nodes are not checked.
+    ``use_sim_time`` if another node of the same package in the file has it. In files that always start Gazebo, also
+    reports such nodes and included launch files if their ``use_sim_time`` is false. The rule also reads parameter
+    files. Files that set the parameter for all nodes are not checked.
 
     ## Why is this bad?
-    The node compares the times of the simulation with the time of the computer. It waits for transforms, or drops each
-    message as too old.
+    The node compares simulation time with system time. It waits for transforms, or drops every message as too old.
 
     ## Example
     ```python

@@ -6,7 +6,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class XacroNotExpanded(RobotRule):
-    """A launch file in Python loads a xacro file without expanding it.
+    """A Python launch file loads a xacro file without expanding it.
 
     ## What it does
     Checks ``open`` and ``cat`` for files with the suffix ``.xacro``. Launch files that import ``xacro`` are not

@@ -5,12 +5,12 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MoveitControllerContradiction(RobotRule):
-    """A controller of MoveIt has another name, type or joints than the controller that it commands.
+    """A MoveIt controller and the ROS controller that it commands differ in name, type or joints.
 
     ## What it does
     Compares the ``type`` and the ``joints`` of MoveIt's controllers with the controllers of the same name in the YAML
-    files of these packages. Reports a name that no controller has if exactly one other has its joints, and a controller
-    that no launch file spawns, although it spawns others.
+    files of these packages. Reports a name without a ROS controller if exactly one other controller has the same
+    joints. Also reports a controller that no launch file spawns, although launch files spawn others.
 
     ## Why is this bad?
     MoveIt waits for an action that the controller does not offer, or the controller rejects the trajectory: "Joints on

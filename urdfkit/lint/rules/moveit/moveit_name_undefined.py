@@ -17,9 +17,9 @@ class MoveitNameUndefined(RobotRule):
     ## What it does
     Checks YAML files in packages with an SRDF of the robot for:
 
-    - groups with a kinematics solver that the SRDF does not define
-    - joints in ``joint_limits`` and in controllers that the robot does not have
-    - poses in ``initial`` of the fake controllers that are not states of their group
+    - groups that have a kinematics solver but are not defined in the SRDF
+    - joints in ``joint_limits`` and in controllers that do not exist in the robot
+    - poses in the ``initial`` list of the fake controllers that are not states of their group
     - names in ``controller_names`` without a section
     - controllers that no YAML file of these packages defines: misspelt names, and in ROS 1 names without their
       namespace
@@ -112,7 +112,7 @@ class MoveitNameUndefined(RobotRule):
             yield self._at(source, node, message, [near])
 
     def _namespace(self, source: Source, node: Node, model: Model) -> Findings:
-        """Yield a finding if the parameters of a controller of ROS 1 are in a namespace that its name lacks."""
+        """Yield a finding if the parameters of a ROS 1 controller are in a namespace that its name lacks."""
         from urdfkit.lint.facts.control.launched_nodes import launches
         from urdfkit.lint.facts.control.spawned_namespaces import paths_of_controllers
         from urdfkit.lint.facts.control.yaml_tree import yamls

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class MoveitSettingInvalid(RobotRule):
-    """A solver, planner, joint limit or controller of MoveIt has a misspelt name or an impossible value.
+    """A solver, planner, joint limit or MoveIt controller has a misspelt name or an impossible value.
 
     ## What it does
     Checks the YAML files of packages with an SRDF of the robot for:

@@ -134,7 +134,7 @@ class SrdfGroupInconsistent(RobotRule):
             yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
 
     def _passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
-        """Yield a finding for each passive joint that a mimic joint follows, or that a controller of MoveIt moves."""
+        """Yield a finding for each passive joint that a mimic joint follows, or that a MoveIt controller moves."""
         from urdfkit.lint.facts.control.yaml_tree import yamls
         from urdfkit.lint.facts.moveit.settings import entries
 

@@ -36,9 +36,9 @@ class BuildFileInconsistent(RobotRule):
 
     ## What it does
     In CMakeLists.txt, checks the syntax, the project name, the order of calls, the call of ``ament_package()`` or
-    ``catkin_package()``, and the spelling of commands, variables and packages. Reports files and folders that do not
-    exist but that ``install`` or a test names, and folders and scripts that launch files use but that are not installed
-    to the right place.
+    ``catkin_package()``, and the spelling of commands, variables and packages. Reports missing files and folders that
+    ``install`` or a test names. Also reports folders and scripts that launch files use but that are not installed, or
+    are installed in the wrong place.
 
     In setup.py, checks name, version, ``packages``, ``data_files`` and the modules of console scripts; in setup.cfg,
     the folder of the scripts.

@@ -4,7 +4,7 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ControllerJointForeign(RobotRule):
-    """A controller has gains or tolerances of a joint that it does not control.
+    """A controller has gains or tolerances for a joint that it does not control.
 
     ## What it does
     Compares the groups in ``constraints`` and ``gains`` of trajectory controllers with their ``joints``. Names that

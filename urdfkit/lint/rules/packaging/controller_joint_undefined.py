@@ -6,14 +6,14 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ControllerJointUndefined(RobotRule):
-    """A controller uses a joint that the robot does not have.
+    """A controller uses a joint that does not exist in the robot.
 
     ## What it does
-    Compares the joints of controllers, and those with gains of gazebo_ros_control, in the YAML files of the robot's
-    package and of neighbouring packages that depend on it with the joints of the robot. Nothing is reported if the
-    joint may be defined by another description in these packages, or under other arguments or conditions. A file most
-    of whose joints the robot lacks belongs to another robot; its joints are reported only if they are misspelt. A
-    misspelt joint is an error.
+    Checks the YAML files of the robot's package and of neighbouring packages that depend on it. Compares the joints of
+    controllers, and the joints with gains of gazebo_ros_control, with the joints of the robot. Nothing is reported if
+    another description in these packages may define the joint, or if other arguments or conditions may do so. A file
+    belongs to another robot if most of its joints do not exist in this one; its joints are then reported only if they
+    are misspelt. A misspelt joint is an error.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.

@@ -18,13 +18,16 @@ class ControllerSettingsMisspelt(RobotRule):
     """A controller type, section or parameter in YAML is misspelt.
 
     ## What it does
-    Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that
-    depend on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller
-    sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
-    interfaces, and tabs. Misspelt types, interfaces and ``ros__parameters``, and tabs, are errors. Types that a package
-    of the workspace exports are accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo
-    plugin of the robot loads the controller, because a simulation ignores it. Unknown parameters of such a
-    controller are notes.
+    Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that depend
+    on it. Errors are:
+
+    - misspelt controller types of ros_controllers and ros2_controllers, and misspelt interfaces
+    - a misspelt or missing key ``ros__parameters`` (with two underscores)
+    - tabs
+
+    Misspelt parameters and names of controller sections are warnings. Types that a package of the workspace exports are
+    accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo plugin of the robot loads the
+    controller, because a simulation ignores it. Unknown parameters of such a controller are notes.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown

@@ -11,8 +11,8 @@ class ControllersShareInterface(RobotRule):
     compares the joints of the controllers. Controllers that are spawned inactive are not checked.
 
     ## Why is this bad?
-    The controller manager activates only the first of them: "Resource conflict for controller", and the spawner of the
-    other one fails.
+    The controller manager activates only the first controller. The spawner of the other one fails with "Resource
+    conflict for controller".
 
     ## Example
     ```yaml

@@ -20,8 +20,9 @@ class CostmapContradictsRobot(RobotRule):
     ## What it does
     Compares ``robot_radius`` and ``footprint`` in the parameters of costmaps with the box around the links of the robot
     that are fixed to each other, in the frame of the root link. Reports a radius below 60 % of half the width of the
-    robot, and one of more than 2.5 times the distance of its farthest corner, with the inscribed and the circumscribed
-    radius of a footprint. Robots with meshes that are not found are not checked.
+    robot, or above 2.5 times the distance of its farthest corner. For a footprint, the first limit applies to the
+    inscribed radius and the second one to the circumscribed radius. Robots with meshes that are not found are not
+    checked.
 
     ## Why is this bad?
     Navigation plans paths that are too narrow for the robot, or finds none.

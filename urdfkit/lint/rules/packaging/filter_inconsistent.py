@@ -15,8 +15,8 @@ class FilterInconsistent(RobotRule):
     - an absolute position from drifting odometry next to another absolute position
     - a filter in the map frame without an absolute position
 
-    Also reports that no node publishes the transform from the odometry frame, if all filters and drive controllers
-    disable it.
+    Also reports packages in which no node publishes the transform from the odometry frame, because all filters and
+    drive controllers disable it.
 
     ## Why is this bad?
     The estimated pose jumps between two sources or drifts without bound, or a link has two parents in the TF tree, or

@@ -22,7 +22,7 @@ _SPARE = re.compile(r"old|back-?up|bak|test|example|template|unused|deprecated|c
 
 
 class FragmentNotIncluded(RobotRule):
-    """A xacro fragment of the package is included nowhere.
+    """No file includes a xacro fragment of the package.
 
     ## What it does
     Checks the xacro files without a robot name, in folders from which the robot includes at least two other files. A

@@ -4,13 +4,13 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class FrameInconsistent(RobotRule):
-    """A node uses a map or odometry frame that no other node names, or one frame for two.
+    """A node uses a map or odometry frame that no other node names, or the same frame for both.
 
     ## What it does
     Compares ``odom_frame``, ``odom_frame_id``, ``local_frame``, ``map_frame``, ``global_frame_id`` and ``global_frame``
-    in YAML with each other and with the odometry frames of plugins. Reports a frame other than ``map`` and ``odom``
-    that no other place of the files and of the code of these packages names, if another node uses another frame, and
-    two frames of one node that are equal.
+    in YAML with each other and with the odometry frames of plugins. Reports a frame other than ``map`` and ``odom`` if
+    another node uses a different frame and the name occurs nowhere else in the files and code of these packages. Also
+    reports a node whose two frames are equal.
 
     ## Why is this bad?
     The node waits for a transform that no node publishes, or publishes a transform that no other node uses.

@@ -26,18 +26,19 @@ _ANY_FRAME = ("frame_id", "sensor_frame")
 
 
 class FrameUndefined(RobotRule):
-    """A parameter in YAML names a link that the robot does not have.
+    """A parameter in YAML names a link that does not exist in the robot.
 
     ## What it does
-    Checks the YAML files of the robot's package and of neighbouring packages that depend on it: ``base_frame_id``,
-    ``base_frame``, ``robot_base_frame`` and ``base_link_frame``; for arms ``base_link``, ``root_link``, ``tip_link``
-    and ``ee_link``; and ``frame_id`` and ``sensor_frame`` if the name differs from a link by one letter. Also checks
-    the base frames among the parameters of launch files.
+    Checks these parameters in the YAML files of the robot's package and of neighbouring packages that depend on it:
 
-    The rule reports misspelt link names, unless another description in these packages defines a link of that name. It
-    also reports other names that no other file in these packages mentions: frames of drive controllers and
-    broadcasters, the ``sensor_frame`` of a sensor of the robot, and base frames next to a map or odometry frame if
-    another parameter names a link as base frame.
+    - ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, also in launch files
+    - for arms, ``base_link``, ``root_link``, ``tip_link`` and ``ee_link``
+    - ``frame_id`` and ``sensor_frame``, if the name differs from a link by one letter
+
+    The rule reports misspelt link names, unless another description in these packages defines a link of that name.
+    Other names are reported in three places if no other file in these packages mentions them: as a frame of a drive
+    controller or broadcaster, as the ``sensor_frame`` of a sensor of the robot, and as a base frame next to a map or
+    odometry frame if another parameter names a link as base frame.
 
     ## Why is this bad?
     The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never

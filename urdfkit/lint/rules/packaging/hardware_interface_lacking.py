@@ -19,9 +19,9 @@ class HardwareInterfaceLacking(RobotRule):
     """A ROS 2 controller uses an interface that the hardware of its joint does not provide.
 
     ## What it does
-    Compares the interfaces that controllers of ros2_controllers require of their joints, according to their type and
-    their parameters in YAML, with the ``<command_interface>`` and ``<state_interface>`` elements of these joints in
-    ``<ros2_control>``. Also checks the ``sensor_name`` of broadcasters for misspelt sensor names.
+    Compares the interfaces that the controllers of ros2_controllers require with the ``<command_interface>`` and
+    ``<state_interface>`` elements of their joints in ``<ros2_control>``. The type and the parameters of a controller in
+    YAML determine the required interfaces. Also checks the ``sensor_name`` of broadcasters for misspelt sensor names.
 
     Nothing is reported if arguments or another description of the package may select other hardware, or if
     ``<ros2_control>`` misspells the joint or interface, which other rules report.

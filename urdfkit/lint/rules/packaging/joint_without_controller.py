@@ -10,12 +10,12 @@ _FEWEST = 2
 
 
 class JointWithoutController(RobotRule):
-    """One joint of an arm is missing in the list of its trajectory controller.
+    """One joint of an arm is missing from the list of its trajectory controller.
 
     ## What it does
-    Compares the command interfaces of ``<ros2_control>`` with the controllers of ROS 2 in YAML. Reports a joint with a
-    command interface that no other file names, if it is the only one, and if a ``JointTrajectoryController`` or a group
-    controller moves two or more other joints of the same branch of the robot.
+    Compares the command interfaces of ``<ros2_control>`` with the ROS 2 controllers in YAML. Reports a joint with a
+    command interface if no other file names it, if it is the only such joint, and if a ``JointTrajectoryController`` or
+    a group controller moves two or more other joints of the same branch of the robot.
 
     ## Why is this bad?
     The joint keeps its position, and plans of MoveIt that move it fail.

@@ -15,14 +15,14 @@ class LaunchPathMissing(RobotRule):
 
     ## What it does
     Checks the launch files of the robot's package and of neighbouring packages that depend on it. The rule resolves
-    paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. A launch
-    argument in a path has its default, each of its choices, and each value that an including launch file passes. Python
-    launch files are parsed, not executed, so computed paths are not checked, nor are paths that are only tested for
-    existence. Gazebo Classic needs the path of its world, not only the name.
+    paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. A path that
+    contains a launch argument is checked with the default of the argument, each of its choices, and each value that an
+    including launch file passes. Python launch files are parsed, not executed, so computed paths are not checked, nor
+    are paths that are only tested for existence. Gazebo Classic needs the path of its world, not only the name.
 
     Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. So are maps,
     recordings and files that git ignores, which users and programs create, unless a file with a similar name exists.
-    Folders and configurations of RViz, without which the launch continues, are warnings.
+    Missing folders and RViz configurations are warnings, because the launch continues without them.
 
     ## Why is this bad?
     The launch fails, or starts without the robot, the world or the parameters.

@@ -23,8 +23,8 @@ class ManifestInvalid(RobotRule):
 
     ## What it does
     Checks the elements, name, version, addresses and dependencies of package.xml against its format (REP 127, 140 and
-    149), and the build tool against CMakeLists.txt and setup.py. Also reports dependencies whose name is a misspelt
-    name of a released package or of a package of the workspace, and packages of the other version of ROS.
+    149), and the build tool against CMakeLists.txt and setup.py. Also reports dependencies that misspell a released
+    package or a package of the workspace, and dependencies on packages of the other ROS version.
 
     ## Why is this bad?
     The package is not built, or rosdep finds no key for the dependency. Without ``<build_type>``, colcon builds a ROS 2

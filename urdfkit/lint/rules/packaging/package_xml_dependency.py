@@ -195,7 +195,7 @@ class PackageXmlDependency(RobotRule):
                     yield self.at_span(span, message, help=help)
 
     def _check_navigation_plugins(self, model: Model) -> Findings:
-        """Yield a finding for each package of plugins of Nav2 on which none depends, unlike on those of the others."""
+        """Yield a finding for each package of Nav2 plugins on which none depends, unlike on those of the others."""
         from urdfkit.lint.facts.control.yaml_tree import yamls
         from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
 
@@ -268,7 +268,7 @@ class PackageXmlDependency(RobotRule):
             yield self.at_span(span, message, help=help, names=(name,))
 
     def _of_ros1(self, source: Source, package: Path, needed: set[str], model: Model) -> Findings:
-        """Yield a finding for each package of a controller of ROS 1 that none of the related packages depends on."""
+        """Yield a finding for each package of a ROS 1 controller that none of the related packages depends on."""
         from urdfkit.description.control.controller_types import TYPES
         from urdfkit.lint.facts.control.controller_joints import typed
         from urdfkit.lint.facts.ros_packages import is_in_metapackage, names

@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ParameterOutOfRange(RobotRule):
-    """A time, rate, length, velocity or proportion in YAML is far outside of the range of sensible values.
+    """A time, rate, length, velocity or proportion in YAML is far outside the sensible range.
 
     ## What it does
     Compares parameters of controllers, Nav2, move_base, robot_localization, slam_toolbox, gmapping, amcl, twist_mux,

@@ -4,12 +4,12 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ParameterTypeWrong(RobotRule):
-    """A parameter of ROS 2 is an integer where a number with a decimal point is needed.
+    """A ROS 2 parameter is an integer where the node expects a number with a decimal point.
 
     ## What it does
-    Compares the numbers of controllers of ros2_controllers, of Nav2, of robot_localization and of the limits in MoveIt
-    2 with the types of their parameters, and checks lists of numbers in the parameters of all nodes of ROS 2, whose
-    elements must have one type.
+    Compares the numbers in the parameters of ros2_controllers, Nav2 and robot_localization, and in the joint limits of
+    MoveIt 2, with the types that the nodes declare. Also checks lists of numbers in the parameters of all ROS 2 nodes:
+    the elements of a list must have one type.
 
     ## Why is this bad?
     rclcpp does not convert integers: the controller is not configured, "parameter 'constraints.goal_time' has invalid

@@ -17,15 +17,21 @@ class ParameterValueInvalid(RobotRule):
     """A parameter in YAML has an impossible value, is missing, or is written twice.
 
     ## What it does
-    Checks YAML files of the robot's package and of packages that depend on it: keys that occur twice in a group,
-    minima above their maxima, misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15
-    values and its world frame, in Nav2 plugins that are listed without a section, and limits that its nodes reject,
-    types and former names of the parameters of well-known nodes, lists of lists, which ROS 2 rejects, and in maps a
-    missing image, an unknown mode and impossible numbers. In the parameters of controllers it also checks rates, wheel
-    sizes, limits and tolerances that are negative, zero or not a number, numbers and truth values in quotes, names that
-    are not in a list, minima above maxima, joints that are listed twice or lack gains, controllers without a type or a
-    required parameter, lists of joint positions that lack a value or exceed the limits of a joint next to the list of
-    these joints, minimum velocities above zero, and parameters that are indented to the level of controllers.
+    Checks the YAML files of the robot's package and of packages that depend on it for:
+
+    - keys that occur twice in a group, minima above their maxima, and misspelt ``true`` and ``false``
+    - wrong types and former names of the parameters of well-known nodes, and lists of lists, which ROS 2 rejects
+    - in robot_localization, a wrong world frame and sensor configurations without 15 values
+    - in Nav2, plugins that are listed without a section, and limits that its nodes reject
+    - in maps, a missing image, an unknown mode and impossible numbers
+
+    In the parameters of controllers, also checks for:
+
+    - rates, wheel sizes, limits and tolerances that are negative, zero or not a number
+    - numbers and truth values in quotes, and names that are not in a list
+    - joints that are listed twice or lack gains, and controllers without a type or a required parameter
+    - lists of joint positions that lack a value or exceed the limits of a joint
+    - minimum velocities above zero, and parameters that are indented to the level of controllers
 
     ## Why is this bad?
     The controller does not start, or the value is ignored: of a key that occurs twice, only the last value applies.

@@ -51,6 +51,7 @@ class SpawnArgumentMisspelt(RobotRule):
     the topic or parameter ``robot_description`` and of joints. The spawners of Gazebo Classic need a source of the
     description. Also reports a controller manager or a description in a namespace if the launch file
     starts the robot and no file names a namespace.
+
     Python launch files are parsed, not executed.
 
     ## Why is this bad?

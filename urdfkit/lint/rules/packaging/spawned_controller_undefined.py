@@ -12,10 +12,13 @@ class SpawnedControllerUndefined(RobotRule):
     """A launch file spawns a controller that no parameter file defines.
 
     ## What it does
-    Checks for controllers passed to the spawner in launch files that are misspellings of a controller with a type in
-    the YAML files of these packages, for controllers of ROS 2 whose parameters are in a file that gives a type only to
-    other controllers, and in ROS 1 for controllers that the same launch file loads in another namespace than that of
-    the spawner. Python launch files are parsed, not executed.
+    Checks the controllers that launch files pass to the spawner. Reports:
+
+    - misspellings of a controller with a type in the YAML files of these packages
+    - in ROS 2, controllers whose parameters are in a file that gives a type only to other controllers
+    - in ROS 1, controllers that the same launch file loads in a namespace other than that of the spawner
+
+    Python launch files are parsed, not executed.
 
     ## Why is this bad?
     The spawner waits for the controller and then fails, and the robot does not move.

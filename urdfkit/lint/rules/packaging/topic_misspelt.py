@@ -4,15 +4,15 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class TopicMisspelt(RobotRule):
-    """A launch file, parameter file or bridge names a topic that differs by a letter from a topic of the robot.
+    """A launch file, parameter file or bridge misspells a topic of the robot by one letter.
 
     ## What it does
-    Compares the topics in remappings, in parameters such as ``scan_topic``, ``odom_topic`` and ``odom0``, in arguments
-    and in the ROS side of bridges with the topics of the robot: those of its Gazebo plugins, sensors, bridges and
-    controllers, and with ``cmd_vel``, ``odom`` and ``scan``. A name is reported if it differs by one
-    letter, or by the order of letters, from exactly one of these topics and if no other line of these packages, of
-    their code or of their RViz files contains it. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the
-    robot publishes ``scan`` and nothing else names the topic.
+    Checks the topics in remappings, in parameters such as ``scan_topic``, ``odom_topic`` and ``odom0``, in arguments
+    and on the ROS side of bridges. They are compared with the topics of the robot's Gazebo plugins, sensors, bridges
+    and controllers, and with ``cmd_vel``, ``odom`` and ``scan``. A name is reported if it differs from exactly one of
+    these topics by one letter or by the order of two letters, and if it occurs nowhere else in these packages, their
+    code and their RViz files. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the robot publishes
+    ``scan`` and nothing else names the topic.
 
     ## Why is this bad?
     The node waits for messages that never arrive, without an error.

@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class TopicTypeMismatch(RobotRule):
-    """A parameter makes a node read a topic with another type than the topic has.
+    """A parameter makes a node subscribe to a topic with the wrong message type.
 
     ## What it does
     Compares the inputs of robot_localization, the observation sources of costmaps, ``scan_topic``, ``odom_topic``,

@@ -9,10 +9,11 @@ class TopicUnconnected(RobotRule):
     ## What it does
     Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,
     ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
-    ``joint_state_publisher`` for topics that the node does not have. Also reports the
-    velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
-    ``twist_mux``, a drive controller, a plugin or a bridge of the packages reads velocity commands, and nodes such as
-    ``nav2_velocity_smoother`` that read the topic on which they publish.
+    ``joint_state_publisher`` for topics that the node does not have. Also reports nodes such as
+    ``nav2_velocity_smoother`` that subscribe to the topic on which they publish.
+
+    Velocity commands of these nodes and of Nav2 are reported if no other file of the packages names their topic,
+    although a ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
 
     ## Why is this bad?
     The robot does not move, and no node reports an error.

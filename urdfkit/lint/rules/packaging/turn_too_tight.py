@@ -9,7 +9,7 @@ class TurnTooTight(RobotRule):
     ## What it does
     Computes the smallest turning radius from the wheelbase and the limits of the steering joints, which a steering
     controller in YAML names. Compares the ``minimum_turning_radius`` of planners with it, and reports
-    ``use_rotate_to_heading`` of the regulated pure pursuit controller. A deviation of 10 % is accepted.
+    ``use_rotate_to_heading`` of the regulated pure pursuit controller. Deviations of up to 10 % are accepted.
 
     ## Why is this bad?
     The robot leaves the planned path in tight turns, and does not reach the goal.

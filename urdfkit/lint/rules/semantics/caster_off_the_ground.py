@@ -31,9 +31,10 @@ class CasterOffTheGround(RobotRule):
 
     ## What it does
     Compares the lowest points of the drive wheels with those of the other links, with every joint at zero and the root
-    link level. The rule reports a caster, recognised by its name or that of its joint, that would tilt the robot by
-    more than 3.4° or has a radius of more than 1.5 times that of the wheels, and any link that extends below the wheels
-    by more than a tenth of their radius. Without a Gazebo drive, these are the pairs of wheels on both sides.
+    link level. A caster, recognised by its name or the name of its joint, is reported if it would tilt the robot by
+    more than 3.4° or if its radius is more than 1.5 times that of the wheels. Any link is reported if it extends below
+    the wheels by more than a tenth of their radius. Without a Gazebo drive, the pairs of wheels on both sides count as
+    drive wheels.
 
     Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a
     joint raises or lowers, links outside the tree of the robot, and a floor below the robot are not checked.

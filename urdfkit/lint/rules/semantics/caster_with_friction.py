@@ -10,7 +10,7 @@ _GRIP = 0.5
 
 
 class CasterWithFriction(RobotRule):
-    """A caster that slides has the friction of a tyre in Gazebo.
+    """A sliding caster has as much friction as a tyre in Gazebo.
 
     ## What it does
     Checks ``mu1`` and ``mu`` of casters that are spheres on a fixed joint, next to the wheels of a differential or

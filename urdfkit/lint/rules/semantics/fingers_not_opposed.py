@@ -22,8 +22,8 @@ class FingersNotOpposed(RobotRule):
     ## What it does
     Compares two ``prismatic`` joints of one parent link, with ``finger``, ``grip``, ``jaw`` or ``claw`` in their names,
     of which one mimics the other or whose names differ in a side or in the numbers 1 and 2. Between their limits, the
-    distance of the fingers must change, the fingers must not pass through each other, and equal ones must not be in
-    the same place. Meshes that are not found count as a point.
+    distance between the fingers must change, the fingers must not pass through each other, and fingers of the same
+    shape must not be in the same place. A missing mesh counts as a point.
 
     ## Why is this bad?
     The gripper does not close. The usual cause is the sign of an axis, or of the multiplier of ``<mimic>``.

@@ -20,8 +20,8 @@ class OdometryFrameNotRoot(RobotRule):
     Compares the base frame of Gazebo drives that publish the transform of the odometry with the root link.
 
     ## Why is this bad?
-    ``robot_state_publisher`` publishes another parent of the same frame. A frame has only one parent in TF: the latest
-    message replaces it, so the parent alternates, and the links above the frame are not connected with the odometry.
+    ``robot_state_publisher`` publishes another parent of the same frame. A frame has only one parent in TF, and each
+    message replaces it. The parent alternates, and the links above the frame are not connected to the odometry.
 
     ## Example
     ```xml

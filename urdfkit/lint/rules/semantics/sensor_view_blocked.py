@@ -4,12 +4,12 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class SensorViewBlocked(RobotRule):
-    """A camera or lidar sees nothing but the robot.
+    """The robot blocks the whole view of a camera or lidar.
 
     ## What it does
-    Checks for cameras and lidars of Gazebo inside of a box, cylinder or sphere of another link, and for those whose
-    view ends at such a shape within a metre. Only links that are fixed to the link of the sensor, and shapes with a
-    diagonal of more than 0.25 m are compared: smaller ones are housings of the sensor.
+    Checks for Gazebo cameras and lidars inside a box, cylinder or sphere of another link, and for those whose view ends
+    at such a shape within a metre. Only links that are fixed to the link of the sensor are compared. Shapes with a
+    diagonal of up to 0.25 m are ignored, because they are usually housings of the sensor.
 
     ## Why is this bad?
     The image is dark, or the scan has the same distances everywhere. Usually a sign or the height of the origin is

@@ -28,12 +28,15 @@ class TwinsMisplaced(RobotRule):
     """A part and its counterpart on the other side, or at the other end, are not mirrored.
 
     ## What it does
-    Compares the joint origins of parts with one parent whose names differ in a side (``left`` and ``right``, ``fl``
-    and ``fr``) or an end (``front`` and ``rear``) only. Parts on two sides must have the same coordinates except
-    for one sign, and parts at two ends may differ in one coordinate. Reports counterparts in the same place, signs
-    and decimal points that differ, and joints that move and differ in a coordinate by more than a quarter of their
-    distance from the parent, or wheels by more than a twentieth. Also reports sides and ends that are exchanged, and
-    joints with equal offsets on parents whose shapes are mirrored.
+    Compares the joint origins of parts of the same parent whose names differ only in a side (``left`` and ``right``,
+    ``fl`` and ``fr``) or an end (``front`` and ``rear``). Parts on two sides must have the same coordinates except for
+    one sign, and parts at two ends may differ in one coordinate. Reports:
+
+    - counterparts in the same place, and coordinates that differ in a sign or a decimal point
+    - moving joints that differ in a coordinate by more than a quarter of their distance from the parent, and wheels
+      that differ by more than a twentieth
+    - sides and ends that are exchanged
+    - joints with equal offsets on parents whose shapes are mirrored
 
     ## Why is this bad?
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.

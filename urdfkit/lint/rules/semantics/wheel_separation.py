@@ -18,8 +18,8 @@ class WheelSeparation(RobotRule):
 
     ## What it does
     Compares the parameter with the lateral distance between the wheel joints and between the wheel shapes, with every
-    joint at zero. A deviation of 5 % is accepted. For skid-steer robots, with several wheels on each side, a factor of
-    up to two is accepted, because their separation is tuned to compensate for slip.
+    joint at zero. Deviations of up to 5 % are accepted. For skid-steer robots, with several wheels on each side, a
+    factor of up to two is accepted, because their separation is tuned to compensate for slip.
 
     ## Why is this bad?
     The robot turns more or less than commanded, and its odometry is wrong by the same factor.

@@ -12,7 +12,7 @@ class ChildLinkUndefined(RobotRule):
     """The child link of a joint is undefined.
 
     ## What it does
-    Checks for joints whose ``<child>`` names an undefined link, and suggests the link with the most similar name.
+    Checks for joints whose ``<child>`` names an undefined link, and suggests the nearest link name.
 
     ## Why is this bad?
     The joint has no child link: urdfdom, Pinocchio and every viewer reject the robot.
@@ -35,7 +35,7 @@ class ChildLinkUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the name of the link with the most similar name.
+    Unsafe: the fix writes the nearest link name, which may not be the intended one.
     """
 
     code = "T202"

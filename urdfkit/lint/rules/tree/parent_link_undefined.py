@@ -13,8 +13,8 @@ class ParentLinkUndefined(RobotRule):
     """The parent link of a joint is undefined.
 
     ## What it does
-    Checks for joints whose ``<parent>`` names an undefined link, and suggests the link with the most similar name. This
-    is a note for a fragment: a xacro file without a root link, if another description of the package defines the link.
+    Checks for joints whose ``<parent>`` names an undefined link, and suggests the nearest link name. The finding is a
+    note for a fragment (a xacro file without a root link) if another description of the package defines the link.
 
     ## Why is this bad?
     The joint has no parent link: urdfdom, Pinocchio and every viewer reject the robot.
@@ -38,7 +38,7 @@ class ParentLinkUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the name of the link with the most similar name.
+    Unsafe: the fix writes the nearest link name, which may not be the intended one.
     """
 
     code = "T201"

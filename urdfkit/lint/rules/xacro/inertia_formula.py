@@ -6,7 +6,7 @@ from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class InertiaFormula(SourceRule):
-    """A moment of inertia formula has a wrong term.
+    """A formula for a moment of inertia has a wrong term.
 
     ## What it does
     Compares the formulas in ``<inertia>`` with those of a solid box, cylinder and sphere, regardless of the names of

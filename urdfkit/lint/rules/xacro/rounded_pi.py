@@ -54,8 +54,8 @@ class RoundedPi(SourceRule):
     ```
 
     ## Fix safety
-    Unsafe: the rotation changes by up to 2 mrad, which may have been measured. Definitions of π are not changed,
-    because other files may use them.
+    Unsafe: the rotation changes by up to 2 mrad, and the written angle may have been measured. Definitions of π are not
+    changed, because other files may use them.
     """
 
     code = "X112"

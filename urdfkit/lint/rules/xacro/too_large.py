@@ -7,8 +7,8 @@ class TooLarge(FaultRule):
     """An expression, macro or include exceeds a resource limit.
 
     ## What it does
-    Reports what exceeds a resource limit. xacro expressions are Python from untrusted files, so evaluation is bounded,
-    and nothing beyond a limit is evaluated.
+    Reports expressions, macros and includes that exceed a resource limit. xacro expressions are Python from untrusted
+    files, so evaluation is bounded and stops at the limit.
 
     A single expression must not
 

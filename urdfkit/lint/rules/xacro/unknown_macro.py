@@ -10,7 +10,7 @@ from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class UnknownMacro(FaultRule):
-    """A macro is called that is not defined.
+    """A macro call names an undefined macro.
 
     ## What it does
     Checks for calls of macros that no file defines before the call, and for misspelt directives (``<xacro:proprety>``,

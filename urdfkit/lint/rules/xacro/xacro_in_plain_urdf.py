@@ -15,7 +15,7 @@ class XacroInPlainUrdf(SourceRule):
     Checks files with links and the extension ``.urdf`` for elements with the ``xacro:`` prefix and for expressions. If
     the file declares the prefix, an unknown element with attributes in ``<inertial>`` is reported as well, because it
     is probably a macro call without the prefix. A declared but unused prefix is accepted, because xacro itself writes
-    it, and so is a file on which a launch file of these packages runs xacro.
+    it. A file is also accepted if a launch file of these packages runs xacro on it.
 
     ## Why is this bad?
     The extension indicates plain URDF. RViz, MoveIt and viewers read the file without expanding it, so macros are

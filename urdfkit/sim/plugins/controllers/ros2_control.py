@@ -1,4 +1,4 @@
-"""gz_ros2_control and gazebo_ros2_control: the controllers of ROS 2, from ``<ros2_control>`` and ``<parameters>``.
+"""gz_ros2_control and gazebo_ros2_control: the ROS 2 controllers, from ``<ros2_control>`` and ``<parameters>``.
 
 Sources: gz_ros2_control, gz_ros2_control_plugin.cpp and gz_system.cpp; gazebo_ros2_control, gazebo_system.cpp.
 """

@@ -1,4 +1,4 @@
-"""gazebo_ros_control: the controllers of ROS 1, from ``<transmission>`` and the parameters that a launch file loads.
+"""gazebo_ros_control: the ROS 1 controllers, from ``<transmission>`` and the parameters that a launch file loads.
 
 Source: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/{gazebo_ros_control_plugin,default_robot_hw_sim}.cpp.
 """

@@ -1,6 +1,6 @@
 """parallel_gripper_action_controller: a gripper of one joint, whose goals and results are joint states.
 
-It replaces the other gripper controllers of ROS 2 from Jazzy on.
+It replaces the other ROS 2 gripper controllers from Jazzy on.
 
 Sources: ros2_controllers 4.20, parallel_gripper_controller; control_msgs, ParallelGripperCommand.action.
 """

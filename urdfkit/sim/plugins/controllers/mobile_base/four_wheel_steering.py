@@ -38,7 +38,7 @@ class FourWheelSteeringController(WheeledBase):
         """
         read = self.settings
         if self.hardware.ros != 1:
-            raise DescriptionError(f"`{self.type}` is a controller of ROS 1", position=read.group("type").position)
+            raise DescriptionError(f"`{self.type}` is a ROS 1 controller", position=read.group("type").position)
         self._wheels = (*self._pair("front_wheel", "velocity"), *self._pair("rear_wheel", "velocity"))
         self._steering = (*self._pair("front_steering", "position"), *self._pair("rear_steering", "position"))
         self.outputs = (*self._wheels, *self._steering)

@@ -58,7 +58,7 @@ class SteeringController(WheeledBase):
     def _configure_ros_1(self) -> None:
         read = self.settings
         if not self.type.startswith("ackermann"):
-            raise DescriptionError(f"`{self.type}` is a controller of ROS 2", position=read.group("type").position)
+            raise DescriptionError(f"`{self.type}` is a ROS 2 controller", position=read.group("type").position)
         self._driven = (self.hardware.output(_named(read, "rear_wheel", "rear_wheel_joint"), "velocity"),)
         self._steered = (self.hardware.output(_named(read, "front_steer", "front_steer_joint"), "position"),)
         self._track = 0.0
