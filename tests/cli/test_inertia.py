@@ -188,4 +188,4 @@ def test_links_without_shapes_say_what_to_do(write, capsys):
     path = write('<link name="empty"/>')
     assert main(["inertia", str(path), "empty"]) == 2
     err = capsys.readouterr().err
-    assert "link `empty` has no shapes to compute an inertia from: give it a <collision> or <visual> first" in err
+    assert "link `empty` has no shapes to compute an inertia from: add a <collision> or <visual> first" in err

@@ -74,9 +74,7 @@ def test_wide_encodings_are_named(codec, folder, capsys) -> None:
 def test_a_pointer_of_git_lfs_is_named(folder, capsys) -> None:
     (folder / "r.urdf").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n")
     assert main(["tf", "r.urdf"]) == 2
-    assert (
-        "r.urdf:1:1: this is a pointer of Git LFS, not the file itself: run `git lfs pull`" in capsys.readouterr().err
-    )
+    assert "r.urdf:1:1: this is a Git LFS pointer, not the file itself: run `git lfs pull`" in capsys.readouterr().err
 
 
 def test_a_name_with_a_dash_follows_two_dashes(folder, capsys) -> None:

@@ -45,7 +45,7 @@ def refusal(capsys, *words):
 
 def test_limits_come_from_the_command_line_then_moveit_then_the_robot(place, capsys):
     line = refusal(capsys, "retime", "arm.urdf", "path.csv")
-    assert "joint `shoulder` has no limit of acceleration [rad/s²]" in line
+    assert "joint `shoulder` has no acceleration limit [rad/s²]" in line
     assert "--acceleration" in line
     write_arm(place, 'acceleration="4" deceleration="3" jerk="50"')
     assert retimed(capsys)["limits"] == {"velocity": [2, 3], "acceleration": [3, 3], "jerk": [50, 50]}

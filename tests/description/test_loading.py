@@ -36,8 +36,8 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
         (model(links("r", "a", "b"), joint("j", "a", "b"), joint("k", "b", "a")), "4:1", "loop"),
         (model(links("a"), joint("j", "a", "a")), "3:1", "joint `j` connects link `a` with itself"),
         (model(links("a", "b", "c"), joint("j", "a", "c"), joint("k", "b", "c")), "4:48", "link `c` is the child of two joints, `j` (m.urdf:3:1) and `k`"),
-        (model(links("a", "a")), "2:17", "two links are called `a`; the first is at m.urdf:2:1"),
-        (model(links("a", "b", "c"), joint("j", "a", "b"), joint("j", "a", "c")), "4:1", "two joints are called `j`"),
+        (model(links("a", "a")), "2:17", "two links are named `a`; the first is at m.urdf:2:1"),
+        (model(links("a", "b", "c"), joint("j", "a", "b"), joint("j", "a", "c")), "4:1", "two joints are named `j`"),
         (model(links("base_link", "b"), joint("j", "base_lnk", "b")), "3:30", "its parent link `base_lnk` does not exist; did you mean `base_link`?"),
         (model(links("a", "arm"), joint("j", "a", "amr")), "3:48", "its child link `amr` does not exist; did you mean `arm`?"),
         (model(links("a", "b"), joint("j", "a", "b").replace('type="fixed"', "")), "3:1", "joint `j`: missing attribute `type`"),
@@ -80,7 +80,7 @@ def test_the_most_important_error_comes_first(write: Write) -> None:
     with pytest.raises(ModelError, match=re.escape("`?` is not a number")):
         load(path)
     path.write_text(path.read_text().replace('"?"', '"1"').replace("<inertial>", "<!--").replace("</inertial>", "-->"))
-    with pytest.raises(ModelError, match="two links are called `a`"):
+    with pytest.raises(ModelError, match="two links are named `a`"):
         load(path)
 
 
@@ -93,7 +93,7 @@ def test_an_error_in_a_macro_names_the_call(write: Write) -> None:
     with pytest.raises(ModelError) as caught:
         load(path)
     assert str(caught.value) == (
-        "m.xacro:2:1: two links are called `l`; the first is at m.xacro:2:1 (in `arm` called at m.xacro:4:1)"
+        "m.xacro:2:1: two links are named `l`; the first is at m.xacro:2:1 (in `arm` called at m.xacro:4:1)"
     )
 
 

@@ -177,7 +177,9 @@ def test_two_roots_are_named(arm: Robot) -> None:
     from dataclasses import replace
 
     broken = replace(arm, joints=arm.joints[:-1])  # type: ignore[type-var]
-    with pytest.raises(KinematicsError, match=r"`arm` is not one tree of links; its roots: `world`, `camera_optical`"):
+    with pytest.raises(
+        KinematicsError, match=r"`arm` does not form a single tree of links; its roots: `world`, `camera_optical`"
+    ):
         Kinematics(broken)
 
 

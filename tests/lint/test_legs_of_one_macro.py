@@ -48,7 +48,7 @@ def found(folder, old, new):
             "0.06",
             17,
             (
-                "joints `lf_thigh_joint` and `rf_thigh_joint` are not mirrored as the shapes of their parents are: "
+                "joints `lf_thigh_joint` and `rf_thigh_joint` are not mirrored, unlike the shapes of their parents: "
                 "y is 0.06 m for both"
             ),
         ),
@@ -56,7 +56,7 @@ def found(folder, old, new):
             "${fore * 0.2} ${side * 0.09}",
             "${side * 0.2} ${fore * 0.09}",
             12,
-            "joints `lf_hip_joint`, `rf_hip_joint` and `lh_hip_joint`: left and right are exchanged for front and rear",
+            "joints `lf_hip_joint`, `rf_hip_joint` and `lh_hip_joint`: left and right are swapped with front and rear",
         ),
     ],
 )

@@ -419,7 +419,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         "K973",
         None,
         manifest() | cmake("install(DIRECTORY launch DESTINATION shar/p)") | {"launch/a.launch.xml": "<launch/>\n"},
-        ["CMakeLists.txt:4: error: unknown folder `shar` of the installation; did you mean `share`?"],
+        ["CMakeLists.txt:4: error: unknown installation folder `shar`; did you mean `share`?"],
     ),
     "package with another name than its folder": (
         "K973",
@@ -657,7 +657,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         },
         [
             (
-                "r.urdf.xacro:2: note: argument `prefix` has no value, which the robot requires"
+                "r.urdf.xacro:2: note: argument `prefix` has no value, but the robot requires one"
                 " | pass prefix:=value to lint the robot with it"
             )
         ],

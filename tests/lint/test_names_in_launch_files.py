@@ -22,7 +22,7 @@ TEXT = "value=\"$(command 'xacro $(find-pkg-share arm)/arm.urdf')\""
 CONDITION = '<arg name="gui" default="true"/><node if="{}" pkg="rviz" type="rviz" name="rviz"/>'
 INCLUDE = '<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"><arg name="{}" value="-r"/></include>'
 YAML_TEXT = 'the launch reads the output of the command as YAML, and stops at text that is not YAML; add `type="str"`'
-CONDITION_TEXT = "condition `$(arg gui)!=false` is not evaluated, because text is around it; write `$(eval …)`"
+CONDITION_TEXT = "condition `$(arg gui)!=false` is not evaluated, because other text surrounds it; write `$(eval …)`"
 CASES = [
     (1, NODELET.format("{}") + MANAGER, "cameras", "manager", "no launch file starts the nodelet manager `cameras`"),
     (1, STATIC, "base_link world", "world base_link", "the virtual joint of the SRDF puts `base_link` below `world`"),
@@ -34,7 +34,7 @@ CASES = [
         "`_semantic`",
     ),
     (1, CONDITION, "$(arg gui)!=false", "$(eval arg('gui'))", CONDITION_TEXT),
-    (1, CONDITION, "not $(arg gui)", "$(arg gui)", "because text is around it; write `$(eval …)`"),
+    (1, CONDITION, "not $(arg gui)", "$(arg gui)", "because other text surrounds it; write `$(eval …)`"),
     (2, DRIVER.format("{}", "gps/fix"), "fixx", "fix", "`nmea_navsat_driver` has no topic `fixx`; did you mean `fix`?"),
     (2, MUX, "cmd_vel_unstamped", "reference_unstamped", "did you mean `drive/reference_unstamped`?"),
     (2, COMMAND, TEXT, f'{TEXT} type="str"', YAML_TEXT),

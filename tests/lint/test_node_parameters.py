@@ -136,7 +136,14 @@ BAD = [
     ("mux", "priority: 100", "priority: 100.0", "K974", 7, "write 100"),
     ("mux", "topics:", "topic:", "K971", 3, "`twist_mux` has no parameter `topic`; did you mean `topics`?"),
     ("mux", "priority: 255", "priority: 50", "K971", 16, "lock `e_stop` has the priority 50 and does not stop"),
-    ("monitor", "cmd_vel_out_topic: cmd_vel", "cmd_vel_out_topic: cmd_vel_smoothed", "K971", 4, "that the node reads"),
+    (
+        "monitor",
+        "cmd_vel_out_topic: cmd_vel",
+        "cmd_vel_out_topic: cmd_vel_smoothed",
+        "K971",
+        4,
+        "to which the node subscribes",
+    ),
     (
         "monitor",
         "in_topic: cmd_vel_smoothed",
@@ -145,7 +152,14 @@ BAD = [
         3,
         "did you mean `cmd_vel_smoothed`?",
     ),
-    ("monitor", "out_topic: cmd_vel", "out_topic: cmd_vel_safe", "K980", 4, "no node reads the velocity commands on"),
+    (
+        "monitor",
+        "out_topic: cmd_vel",
+        "out_topic: cmd_vel_safe",
+        "K980",
+        4,
+        "no node subscribes to the velocity commands on",
+    ),
     ("monitor", "type: polygon", "type: rectangle", "K971", 7, "unknown type `rectangle` of `Stop`"),
     ("monitor", "action_type: stop", "action_type: halt", "K971", 9, "unknown `action_type` `halt` of `Stop`"),
     ("monitor", ", [0.0, 0.2]", "", "K971", 8, "`points` of `Stop` has 3 points; collision_monitor needs at least 4"),
@@ -246,7 +260,7 @@ def test_parameters_in_launch_files_of_ros_1(tmp_path, old, new, line, message):
     [
         ("DWAPlannerROS: {max_trans_vel: 0.5}", "`DWAPlannerROS` has no parameter `max_trans_vel`"),
         ("plugins: [{name: a, type: 'costmap_2d/StaticLayer'}]", "did you mean `costmap_2d::StaticLayer`?"),
-        ("base_global_planner: nav2_navfn_planner/NavfnPlanner", "is of Nav2, which ROS 1 does not have"),
+        ("base_global_planner: nav2_navfn_planner/NavfnPlanner", "belongs to Nav2, which ROS 1 does not have"),
     ],
 )
 def test_planners_and_layers_of_ros_1(tmp_path, file, message):

@@ -31,8 +31,8 @@ FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot drives wri
 NEVER = "the reason is `Never`, but a joint connects links `turret` and `boom` write `Adjacent`"
 URDF = "titan_description/urdf/titan.urdf.xacro"
 OUTSIDE_PARENT = (
-    "joint `joint_3` is 0.25 m outside of its parent link `upper_arm_link`; all other moving joints are at theirs "
-    "check the axes, signs and units of the origin"
+    "joint `joint_3` is 0.25 m outside of its parent link `upper_arm_link`; "
+    "all other moving joints are at their parent links check the axes, signs and units of the origin"
 )
 STROKE = (
     "joint `joint_3` slides from -2.4 to 2.4 m, but the whole robot extends 1.09 m "

@@ -104,7 +104,7 @@ BAD = [
         'to="drive/cmd_vel"',
         "K980",
         10,
-        "no node reads the velocity commands on `drive/cmd_vel`",
+        "no node subscribes to the velocity commands on `drive/cmd_vel`",
     ),
     (LAUNCH, 'to="cmd_vel_joy"', 'to="joy/cmd_vel"', "K980", 13, "`joy/cmd_vel`; did you mean `cmd_vel_joy`?"),
 ]

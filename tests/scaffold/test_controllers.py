@@ -222,11 +222,11 @@ def test_nothing_is_overwritten(place, capsys):
     folder = robot(place, ROVER)
     (place / "rover_control").mkdir()
     assert new() == 2
-    assert "rover_control exists already; choose another --name" in capsys.readouterr().err
+    assert "rover_control already exists; choose another --name" in capsys.readouterr().err
     (place / "rover_control").rmdir()
     (folder / "urdf/control.xacro").write_text("<robot/>")
     assert new() == 2
-    assert "control.xacro exists already" in capsys.readouterr().err
+    assert "control.xacro already exists" in capsys.readouterr().err
     assert not (place / "rover_control").exists()
 
 

@@ -31,7 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "- formats standard input to standard output",
     )
     mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--check", action="store_true", help="list the files that would change, and change none")
+    mode.add_argument("--check", action="store_true", help="list the files that would change, without changing them")
     mode.add_argument("--diff", action="store_true", help="print the changes without writing them")
     add("--indent", type=_indent, metavar="N", help="number of spaces for each level (default: 2)")
     parser.epilog = _EPILOG

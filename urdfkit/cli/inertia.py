@@ -39,7 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="*",
         metavar="ROBOT [LINK]",
-        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the link "
+        help="a .urdf or .xacro file, a package folder or a robot name, then key:=value xacro arguments, then the link "
         "(default: all links with a mass)",
     )
     weight = parser.add_mutually_exclusive_group()

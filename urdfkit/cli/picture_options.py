@@ -49,7 +49,7 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
         metavar="MOTION",
         help="turn (default): the camera moves around the robot; joints: the joints move one after the other",
     )
-    group.add_argument("--seconds", type=float, metavar="T", help="length of the video (default 6)")
+    group.add_argument("--seconds", type=float, metavar="T", help="length of the video in seconds (default 6)")
 
 
 def set_picture_defaults(arguments: argparse.Namespace) -> None:

@@ -73,10 +73,10 @@ class _Structure:
         first = self.robot.link_by_name
         for link, other in repeated(self.robot.links):
             at = other.element.origin.position
-            message = f"two links are called `{link.name}`; the first is at {at}"
+            message = f"two links are named `{link.name}`; the first is at {at}"
             self._add(message, "this one is ignored", "T206", link.element, link=link.name)
         for joint, original in repeated(self.robot.joints):
-            message = f"two joints are called `{joint.name}`; the first is at {original.element.origin.position}"
+            message = f"two joints are named `{joint.name}`; the first is at {original.element.origin.position}"
             self._add(message, "this one is renamed", "T207", joint.element, joint=joint.name)
         if not self.defects:
             return

@@ -38,7 +38,7 @@ def build_model(robot: Robot, *, floating_base: bool = False) -> Any:
     roots = robot.roots()
     if len(roots) != 1:
         names = ", ".join(f"`{link.name}`" for link in roots) or "none"
-        raise KinematicsError(f"robot `{robot.name}` is not one tree of links; its roots: {names}")
+        raise KinematicsError(f"robot `{robot.name}` does not form a single tree of links; its roots: {names}")
     model = pin.Model()
     model.name = robot.name or ""
     joint, frame = 0, 0

@@ -57,7 +57,7 @@ class TransformTree:
     """The frames of a robot and the transforms between them.
 
     Args:
-        kinematics: the robot, or its `Kinematics` where one exists already.
+        kinematics: the robot, or its `Kinematics` where one already exists.
 
     Attributes:
         kinematics: places the links.

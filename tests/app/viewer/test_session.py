@@ -97,7 +97,7 @@ def test_a_deleted_file_is_reported_and_followed_again(session: Session, capsys)
     session.check_files()
     session.check_files()
     assert (
-        "lab.urdf not found; the page shows the robot that was read last" in session.server.reported["fault"]["message"]
+        "lab.urdf not found; the page shows the last robot that was read" in session.server.reported["fault"]["message"]
     )
     assert capsys.readouterr().err.count("not found") == 1
     session.check_files()

@@ -182,7 +182,7 @@ def test_a_topic_with_another_type_on_the_graph_is_one_line(monkeypatch: pytest.
     bridge = NodeBridge(bus, calls, node, report=lines.append)
     until(lambda: len(checks) > 1, calls)
     bridge.close()
-    assert lines == [f"`/cmd_vel` has type {TWIST}; a node uses {STRING}, and so exchanges no messages with it"]
+    assert lines == [f"`/cmd_vel` has type {TWIST}, but a node uses {STRING}; they exchange no messages"]
 
 
 def test_a_message_that_cannot_be_encoded_is_one_line_and_the_next_ones_are_sent() -> None:

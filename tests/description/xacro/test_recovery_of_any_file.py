@@ -235,6 +235,6 @@ def test_what_macros_nest_too_deep_is_refused(inside: str, calls: int, tmp_path:
     path = tmp_path / "m.xacro"
     path.write_text(f"{_HEAD}{macro}</robot>")
     (fault,) = expand_leniently(path).faults
-    assert fault.message == f"with this, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
+    assert fault.message == f"here, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
     with pytest.raises(XmlError, match="nest elements deeper"):
         expand(path)

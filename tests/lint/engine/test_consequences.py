@@ -156,6 +156,6 @@ def test_a_mesh_shows_a_cylinder_with_radius_and_length_swapped() -> None:
     box, pose = ((Box((0.9, 0.3, 0.9)), Pose()),), Pose(rpy=(1.5707963267948966, 0.0, 0.0))
     swapped, right = _defect(box, ((Cylinder(0.3, 0.45), pose),)), _defect(box, ((Cylinder(0.45, 0.3), pose),))
     assert (swapped, right) == (
-        ("has radius and length of the visual shape in the other order", "swap radius and length", "geometry"),
+        ("has the radius and length of the visual shape swapped", "swap radius and length", "geometry"),
         None,
     )

@@ -30,7 +30,7 @@ class ReplaySession(ObservedSession):
         shown: the robot.
         robot: its motion.
         server: the page.
-        loop: begin again at the end.
+        loop: start again at the end of the recording.
         clock: wall clock [s].
         sleep: function that waits for a number of seconds.
 

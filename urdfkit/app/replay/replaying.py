@@ -43,7 +43,7 @@ def replaying(
         bag: the recording.
         model: the robot.
         fixed_frame: frame in which everything is shown; None for the root of the transforms.
-        loop: begin again at the end.
+        loop: start again at the end of the recording.
 
     Raises:
         UrdfkitError: the robot or the recording cannot be read.

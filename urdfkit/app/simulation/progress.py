@@ -15,7 +15,7 @@ PATIENCE = 1.0
 """Seconds that an operation may take before it is reported."""
 
 
-RAYS = "compiling the kernels of sensors; until then the page does not show them …"
+RAYS = "compiling the sensor kernels; the page shows sensor data afterwards …"
 """Label of the compilation of the ray-casting kernels."""
 
 

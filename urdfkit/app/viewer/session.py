@@ -161,7 +161,7 @@ class Session:
     def _report_missing(self, missing: Sequence[Path]) -> None:
         """Report missing files; the robot on the page stays until they exist again."""
         names = ", ".join(str(path) for path in missing)
-        text = f"{names} not found; the page shows the robot that was read last"
+        text = f"{names} not found; the page shows the last robot that was read"
         note(f"urdfkit: {text}")
         self.server.publish_latched("fault", message=text)
 

@@ -96,7 +96,7 @@ class FoxglovePeer:
         except (UrdfkitError, RecursionError, ValueError) as error:
             self._fail(str(error))
         except (AttributeError, KeyError, TypeError) as error:
-            self._fail(f"a field is missing or of a wrong kind: {error}")
+            self._fail(f"a field is missing or has the wrong type: {error}")
 
     def close(self) -> None:
         """End all subscriptions."""
@@ -112,7 +112,7 @@ class FoxglovePeer:
         for each in message["subscriptions"]:
             number, (topic, type) = int(each["id"]), self._channels.topic(each["channelId"])
             if not 0 <= number < 2**32 or number in self._subscriptions:
-                raise UsageError(f"the subscription {number} exists already or is out of range")
+                raise UsageError(f"the subscription {number} already exists or is out of range")
 
             def frames(published: PublishedMessage, number: int = number) -> list[Frame]:
                 return [message_frame(number, round(published.t * 1e9), published.cdr())]

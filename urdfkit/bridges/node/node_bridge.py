@@ -202,7 +202,7 @@ class NodeBridge:
             used = self._node.types()
             for name, type in self._types.items():
                 for other in sorted(used.get(name, {type}) - {type}):
-                    self._report(f"`{name}` has type {type}; a node uses {other}, and so exchanges no messages with it")
+                    self._report(f"`{name}` has type {type}, but a node uses {other}; they exchange no messages")
 
     def _report(self, line: str) -> None:
         if line not in self._reported:

@@ -79,5 +79,5 @@ class NodeFunctions:
                 "this simulation; start each simulation with a different --namespace"
             )
         else:
-            self._node.report(f"ros1: {name} was requested to shut down ({reason}); it continues")
+            self._node.report(f"ros1: ignored a request to shut down {name} ({reason})")
         return 1, "", 0

@@ -54,7 +54,9 @@ class RclpyNode:
             from rclpy.signals import SignalHandlerOptions
         except ImportError as error:
             reason = str(error).splitlines()[0]
-            raise MissingDependencyError(f"this Python cannot import rclpy ({reason}); use that of ROS") from error
+            raise MissingDependencyError(
+                f"this Python cannot import rclpy ({reason}); use the Python of ROS"
+            ) from error
         self._report = report
         self._context = rclpy.Context()
         try:

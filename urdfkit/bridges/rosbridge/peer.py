@@ -72,7 +72,7 @@ class RosbridgePeer:
         except (UrdfkitError, RecursionError, ValueError) as error:
             self._fail(number, str(error))
         except (AttributeError, KeyError, TypeError) as error:
-            self._fail(number, f"a field is missing or of a wrong kind: {error}")
+            self._fail(number, f"a field is missing or has the wrong type: {error}")
 
     def close(self) -> None:
         """End all subscriptions."""

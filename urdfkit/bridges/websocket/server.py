@@ -133,7 +133,7 @@ class PeerSocket(WebSocketHandler):
         server, request = self.server, self.request
         tokens = self.get_query_arguments("token")
         if not server.accepts_host(request.headers.get("Host", "")):
-            self._reject("The host name is not accepted by this server.")
+            self._reject("This server does not accept the host name.")
         elif not server.accepts_origin(request.headers.get("Origin")):
             self._reject("Web pages of other sites may not connect; see --allow-origin.")
         elif server.needs_token and not (len(tokens) == 1 and server.access.accepts_token(tokens[0])):

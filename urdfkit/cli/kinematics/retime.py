@@ -36,20 +36,23 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="*",
         metavar="ROBOT PATH.csv",
-        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the path",
+        help="a .urdf or .xacro file, a package folder or a robot name, then key:=value xacro arguments, then the path",
     )
     limits = "VALUE|NAME=VALUE,…"
     parser.add_argument(
         "--acceleration",
         type=_limits,
         metavar=limits,
-        help="limits of acceleration [rad/s² or m/s²], of all joints or by name",
+        help="acceleration limits [rad/s² or m/s²], for all joints or by name",
     )
     parser.add_argument(
-        "--jerk", type=_limits, metavar=limits, help="limits of jerk [rad/s³ or m/s³], of all joints or by name"
+        "--jerk", type=_limits, metavar=limits, help="jerk limits [rad/s³ or m/s³], for all joints or by name"
     )
     parser.add_argument(
-        "--joint-limits", type=Path, metavar="FILE", help="MoveIt's joint_limits.yaml (default: that of the package)"
+        "--joint-limits",
+        type=Path,
+        metavar="FILE",
+        help="MoveIt's joint_limits.yaml (default: the file of the package)",
     )
     parser.add_argument(
         "--scale",

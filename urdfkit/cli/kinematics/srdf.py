@@ -95,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
         names = ", ".join([*(f"`{name}`" for name in missing[:8]), *("…" for _ in missing[8:9])])
         _note(
             f"{arguments.update}: robot `{robot.name}` has no link {names}; "
-            "pairs with a reason of urdfkit are removed, other lines are unchanged"
+            "pairs that urdfkit disabled are removed; other lines are unchanged"
         )
     effectors: list[EndEffector] = []
     if arguments.group:

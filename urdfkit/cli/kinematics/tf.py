@@ -39,8 +39,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="*",
         metavar="ROBOT [PARENT CHILD]",
-        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the parent "
-        "and child frame of the transform (default: all frames relative to the root frame)",
+        help="a .urdf or .xacro file, a package folder or a robot name, then key:=value xacro arguments, then the "
+        "parent and child frame of the transform (default: all frames relative to the root frame)",
     )
     parser.add_argument(
         "--joint",

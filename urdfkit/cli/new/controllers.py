@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     package = check_package_name(arguments.name or f"{name}_control")
     folder = own.parent if own is not None else model.path.parent
     if (folder / package).exists():
-        raise ResourceError(f"{folder / package} exists already; choose another --name")
+        raise ResourceError(f"{folder / package} already exists; choose another --name")
     namespace = (existing.loop_parameter("robotNamespace") or robot.name or name) if existing.loop is not None else name
     with staging(folder) as staged:
         _render(staged, package, name, made, robot, generation, namespace=namespace.strip("/"))
@@ -246,7 +246,7 @@ def _altered(
         changes = [Alteration(path, before, insert_before_end(before, text, path=path))]
         return [*_dependency(path, package, generation), *changes]
     if (path.parent / "control.xacro").exists():
-        raise ResourceError(f"{path.parent / 'control.xacro'} exists already; rename or remove it")
+        raise ResourceError(f"{path.parent / 'control.xacro'} already exists; rename or remove it")
     changes = _included(path, text, f"Command and state interfaces of the joints; the controllers are in {package}.")
     home = changes[0].path
     installed = with_installed(own, path, home) if (own := package_of(path)) is not None else None

@@ -22,7 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fixed-frame", metavar="FRAME", help="frame in which everything is shown (default: map or odom)"
     )
-    parser.add_argument("--loop", action="store_true", help="begin again at the end")
+    parser.add_argument("--loop", action="store_true", help="start again at the end of the recording")
     add_page_options(parser)
     add_bridges(parser)
     parser.epilog = "examples:\n  urdfkit replay run.mcap simpleton\n  urdfkit replay lab.bag my_robot.urdf --loop"

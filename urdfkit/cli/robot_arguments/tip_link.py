@@ -19,8 +19,8 @@ def add_tip(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="*",
         metavar="ROBOT TIP",
-        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the link at "
-        "the tip of the chain",
+        help="a .urdf or .xacro file, a package folder or a robot name, then key:=value xacro arguments, then the link "
+        "at the tip of the chain",
     )
     parser.add_argument("--base", metavar="LINK", help="the link that poses are expressed in (default: the root link)")
     add_macro(parser)

@@ -18,13 +18,13 @@ def add_ros(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--ros2",
         action="store_true",
-        help="publish all topics to ROS 2 nodes and subscribe to their commands, by rclpy, else Cyclone "
+        help="publish all topics to ROS 2 nodes and subscribe to their commands, with rclpy or, without it, Cyclone "
         "DDS. Discovery stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE extends it",
     )
     group.add_argument(
         "--ros1",
         action="store_true",
-        help="the same for ROS 1, with services, at the master of ROS_MASTER_URI; only nodes of this machine connect "
+        help="the same for ROS 1, with services, at the master in ROS_MASTER_URI; only nodes of this machine connect "
         "unless ROS_IP or ROS_HOSTNAME is set",
     )
     group.add_argument("--ros-domain", type=int, metavar="N", help="domain of ROS 2 (default: ROS_DOMAIN_ID, else 0)")

@@ -48,8 +48,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         choices=("pause", "reset", "change"),
-        help="what other pages may do while a page drives (repeatable): pause (also step and set the speed), reset, or "
-        "change (the world, and publish); default: only stop the robots",
+        help="requests that other pages may send while a page drives (repeatable): pause (also step and speed), reset, "
+        "or change (edit the world and publish); default: only stop the robots",
     )
     parser.epilog = (
         "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser\n"

@@ -15,7 +15,7 @@ from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError
 from urdfkit.position import Position
 
-NOT_READ = "is not read, as --confined hides the environment"
+NOT_READ = "is not read, because --confined hides the environment"
 OUTSIDE = "outside of the package, its workspace and the package path"
 
 _LONGEST_NAME = 255

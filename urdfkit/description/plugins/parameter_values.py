@@ -124,7 +124,7 @@ def unpaired_wheels(plugin: Plugin, spec: PluginSpec) -> tuple[Element, str] | N
     wanted = number(texts["wheel_pairs"][0]) if pairs is not None else float(left)
     if wanted is None or (left and right and left == right == int(wanted)):
         return None
-    needed = f"{int(wanted)} of each" if pairs is not None else "as many of one as of the other, at least one"
+    needed = f"{int(wanted)} of each" if pairs is not None else "the same number of both, at least one"
     tags = [parameter.tag for name in ("left_joint", "right_joint") if (parameter := spec.by_meaning(name)) is not None]
     place = pairs or spec.by_meaning("left_joint")
     written = (element for text, element in values(plugin, place) if text) if place is not None else iter(())

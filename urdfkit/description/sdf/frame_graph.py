@@ -70,7 +70,7 @@ class Scope:
             strict: names are unique among all kinds (SDF 1.7), not only among frames of the same kind.
 
         Raises:
-            DescriptionError: the name exists already or is reserved.
+            DescriptionError: the name already exists or is reserved.
         """
         if name == "world" or (name.startswith("__") and name.endswith("__")):
             raise DescriptionError(f"`{name}` is a reserved name; rename the {kind}", position=raw.position)
@@ -98,7 +98,7 @@ class Scope:
             placement: the frame inside the model that the pose places.
 
         Raises:
-            DescriptionError: a name exists already.
+            DescriptionError: a name already exists.
         """
         whole = f"__merged__{name}__"
         link = inner._canonical_link(raw.position)

@@ -18,7 +18,7 @@ def add_model(world: World, model: WorldModel, *, name: str = "", pose: Pose | N
         pose: pose in the world; the pose of `model` when None.
 
     Raises:
-        ResourceError: the name exists already; suggests an unused name.
+        ResourceError: the name already exists; suggests an unused name.
     """
     called = name or model.name
     taken = set(_names(world))

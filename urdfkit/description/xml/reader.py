@@ -147,7 +147,7 @@ def _explain(text: str, source: Source, position: Position, opened: list[tuple[s
         found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
         return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
     if source.text.startswith(LFS.decode()):
-        return "this is a pointer of Git LFS, not the file itself: run `git lfs pull`"
+        return "this is a Git LFS pointer, not the file itself: run `git lfs pull`"
     if text == "no element found":
         return f"the file ends too early: {unclosed}" if tag else "this is not XML: there is no element"
     if text == "unclosed token":
@@ -197,7 +197,7 @@ def check_depth(depth: int, position: Position) -> None:
         XmlError: `depth` reaches `MAX_MADE_DEPTH`.
     """
     if depth >= MAX_MADE_DEPTH:
-        message = f"with this, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
+        message = f"here, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
         raise XmlError(message, position=position)
 
 

@@ -217,7 +217,7 @@ def _straight(path: Any, length: float, limits: MotionLimits) -> tuple[_Progress
         from ruckig import InputParameter, Result, Ruckig
         from ruckig import Trajectory as Profile
     except ImportError:
-        raise MissingDependencyError("retiming with limits of jerk needs ruckig: pip install 'urdfkit[time]'") from None
+        raise MissingDependencyError("retiming with jerk limits needs ruckig: pip install 'urdfkit[time]'") from None
     assert limits.jerk is not None
     slope = np.maximum(np.abs(path(0.0, 1)), 1e-300)
     wanted = InputParameter(1)

@@ -71,7 +71,7 @@ def motion_limits(
         unknown = next((name for name in limits if name and name not in joints), None)
         if unknown is not None:
             hint = did_you_mean(unknown, joints)
-            raise KinematicsError(f"limit of {kind} of `{unknown}`: the path has no joint of this name{hint}")
+            raise KinematicsError(f"{kind} limit of `{unknown}`: the path has no joint of this name{hint}")
     moveit = _joint_limits(file) if file is not None else {}
     if file is not None and not moveit.keys() & set(joints):
         there = ", ".join(f"`{name}`" for name in moveit) or "no joints"
@@ -88,7 +88,7 @@ def motion_limits(
             unit = f"{UNITS[movable[joints.index(without[0])].type or '']}/s{_POWERS[kind]}"
             hint = f"; give one with --{kind}" if kind in chosen else ""
             raise KinematicsError(
-                f"joint `{without[0]}` has no limit of {kind} [{unit}] in its <limit> or a {MOVEIT_FILE}{hint}"
+                f"joint `{without[0]}` has no {kind} limit [{unit}] in its <limit> or a {MOVEIT_FILE}{hint}"
             )
     return MotionLimits(
         tuple(joints),
@@ -153,5 +153,5 @@ def _rate(joint: Joint, kind: str, moveit: Settings | None, chosen: Mapping[str,
             value = min(value, joint.limit.deceleration)
     if value is not None and not 0.0 < value < np.inf:
         unit = f"{UNITS[joint.type or '']}/s{_POWERS[kind]}"
-        raise KinematicsError(f"joint `{joint.name}`: the limit of {kind} is {value:g} {unit}; it must be positive")
+        raise KinematicsError(f"joint `{joint.name}`: the {kind} limit is {value:g} {unit}; it must be positive")
     return value

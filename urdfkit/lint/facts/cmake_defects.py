@@ -198,7 +198,7 @@ def misplaced(
                 if installed in (None, f"{share}/{folder}") or "/" in folder or "$" in word or folder not in named:
                     right.add(folder)
                     continue
-                message = f"folder `{folder}` is installed as `{installed}`, but its files are searched in"
+                message = f"folder `{folder}` is installed as `{installed}`, but its files are looked up in"
                 wrong.append((folder, BuildDefect(source, start, written, f"{message} `{share}/{folder}`")))
             continue
         is_share = re.fullmatch(r"share(/\w+)?", place) is not None
@@ -212,7 +212,7 @@ def misplaced(
         )
         for folder in folders if is_elsewhere else ():
             if folder.partition("/")[0] in {*used, *_FOLDERS}:
-                message = f"folder `{folder}` is installed to `{place}`, but its files are searched in `{share}`"
+                message = f"folder `{folder}` is installed to `{place}`, but its files are looked up in `{share}`"
                 wrong.append((folder, BuildDefect(source, start, written, message)))
     yield from (defect for folder, defect in wrong[:1] if folder not in right)
 

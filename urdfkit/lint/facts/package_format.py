@@ -106,7 +106,9 @@ def _values(files: BuildFiles, root: Tag) -> Iterator[FormatDefect]:
                 message = f"package name `{text}` has capital letters; names of packages are lower case"
             yield FormatDefect(tag, message, "warning" if text[0].isdigit() else "note")
         else:
-            yield FormatDefect(tag, f"package name `{text}` is not made of letters, digits, `_` and `-`")
+            yield FormatDefect(
+                tag, f"package name `{text}` contains characters other than letters, digits, `_` and `-`"
+            )
     for text, tag in files.tags("license", "description"):
         if tag.parent is root and not text and not tag.children:
             yield FormatDefect(tag, f"<{tag.name}> is empty")

@@ -67,7 +67,7 @@ def compute_inertial(
     if not items:
         if not (link.collisions or link.visuals):
             raise ResourceError(
-                f"link `{link.name}` has no shapes to compute an inertia from: give it a <collision> or <visual> first"
+                f"link `{link.name}` has no shapes to compute an inertia from: add a <collision> or <visual> first"
             )
         others = "collision" if kind == "visual" else "visual"
         raise ResourceError(

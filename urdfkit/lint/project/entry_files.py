@@ -120,7 +120,7 @@ def _of_folder(folder: Path) -> list[Entry]:
     manifests = sorted((*folder.glob("*/package.xml"), *folder.glob("*/*/package.xml")))
     found = [entry for file in manifests for entry in _robots_of(file, file.parent)]
     if not found:
-        raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
+        raise ResourceError(f"no robot description (a .urdf or .xacro file with a <robot> element) in {folder}")
     return found
 
 

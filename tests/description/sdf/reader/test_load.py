@@ -496,7 +496,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
         ('<light name="l" type="sopt"/>', "unknown type `sopt` of light `l`; did you mean `spot`?"),
         ("<model/>", "<model> lacks its name"),
-        ('<model name="m"/>', "model `m` has no link; give it one or make it <static>"),
+        ('<model name="m"/>', "model `m` has no link; add a link or make the model <static>"),
         ('<model name="m"><static>yes</static></model>', "<static> is `yes`; it must be true or false"),
         ('<model name="m"><pose>1 2 3</pose></model>', "<pose> is `1 2 3`; it must be 6 finite numbers"),
         (

@@ -169,7 +169,7 @@ class _StandardServices:
         if wanted not in (STOPPED, PLAYING, PAUSED):
             raise _ResultError(UNSUPPORTED, f"state {wanted} is not supported; use 0 stopped, 1 playing or 2 paused")
         if wanted == self._simulation_state():
-            raise _ResultError(ALREADY_IN_STATE, "the simulation is in this state already")
+            raise _ResultError(ALREADY_IN_STATE, "the simulation is already in this state")
         if wanted == STOPPED:
             self._controls.reset()
         self._controls.pause(wanted != PLAYING)

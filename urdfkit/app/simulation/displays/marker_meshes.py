@@ -34,7 +34,7 @@ class MarkerMeshes:
         """
         if uri not in self._names and uri not in self._faults:
             if len(self._names) + len(self._faults) >= MOST:
-                raise ResourceError(f"there are more than {MOST} meshes in markers")
+                raise ResourceError(f"the markers use more than {MOST} meshes")
             try:
                 self._names[uri] = self._read(uri)
             except ResourceError as error:

@@ -145,7 +145,7 @@ class WorldObjects(Feature):
         values = request.values
         name = values.get("name") or self.simulator.world.free_name("walls")
         if not name.replace("_", "").replace("-", "").isalnum():
-            raise SimulationError(f"`{name}` is not a name for walls: use letters, digits, _ and -")
+            raise SimulationError(f"`{name}` is not a valid name for walls: use letters, digits, _ and -")
         document = walls(
             name,
             values["corners"],

@@ -128,7 +128,7 @@ def _model(context: Context, name: str, pose: Pose | None) -> WorldModel:
     if written is None and root.tag == "sdf" and root.find("world") is not None:
         raise wrong(root, "this is a world, not a model; pass it with --world, or save its models one by one")
     if written is None:
-        raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
+        raise wrong(root, "an SDF model starts with <sdf> and contains a <model>")
     found = read_model(context, written)
     if not isinstance(found.entity, WorldModel):
         raise wrong(written, "this is not a model")
@@ -206,7 +206,7 @@ def _entity(context: Context, element: Element) -> ReadEntity | None:
     if element.tag == "light":
         return ReadEntity(read_light(context, element, Pose()), raw_pose(element))
     if element.tag == "include" and element.get("merge", "false") in ("true", "1"):
-        raise wrong(element, 'merge="true" is supported for models inside models only; remove it')
+        raise wrong(element, 'merge="true" is supported only for models inside models; remove it')
     return read_include(context, element) if element.tag == "include" else None
 
 
@@ -244,7 +244,7 @@ def _require_masses(model: WorldModel, *, static: bool) -> None:
     static = static or model.static
     if not (model.static or model.links or model.models):  # like sdformat
         raise DescriptionError(
-            f"model `{model.name}` has no link; give it one or make it <static>", position=model.position
+            f"model `{model.name}` has no link; add a link or make the model <static>", position=model.position
         )
     for link in () if static else model.links:
         body = link.inertial

@@ -36,7 +36,7 @@ class ReadEntity:
         """Add the frame of a model to the frames of its parent; lights have none.
 
         Raises:
-            DescriptionError: the name exists already.
+            DescriptionError: the name already exists.
         """
         if not isinstance(self.entity, Light):
             name = self.entity.name
@@ -109,7 +109,7 @@ def add_frame(scope: Scope, element: Element, *, strict: bool) -> None:
     """Add the frame of a link, joint or ``<frame>``; other elements have none.
 
     Raises:
-        DescriptionError: the name is missing or exists already.
+        DescriptionError: the name is missing or already exists.
     """
     if element.tag == "link":
         scope.add(name_of(element), "link", raw_pose(element), strict=strict)
@@ -180,7 +180,7 @@ def read_include(context: Context, element: Element) -> ReadEntity | None:
 
 def _first(context: Context, root: Element) -> ReadEntity | None:
     if root.tag != "sdf":
-        raise wrong(root, f"<{root.tag}> is not a model: an SDF model starts with <sdf> and has a <model> in it")
+        raise wrong(root, f"<{root.tag}> is not a model: an SDF model starts with <sdf> and contains a <model>")
     for child in root.children:
         if child.tag == "model":
             return read_model(context, child)

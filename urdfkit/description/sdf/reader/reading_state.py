@@ -101,4 +101,4 @@ def root_error(root: Element) -> DescriptionError:
         return wrong(
             root, "this is a robot; an SDF world starts with <sdf>: pass the robot as ROBOT, or include it in a world"
         )
-    return wrong(root, "an SDF world starts with <sdf> and has a <world> or a <model> in it")
+    return wrong(root, "an SDF world starts with <sdf> and contains a <world> or a <model>")

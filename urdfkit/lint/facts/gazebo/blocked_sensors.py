@@ -62,13 +62,13 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]
             ]
             around = next((name for name, shape, at in solids if _depth(shape, _local(at, eye)) > _INSIDE), None)
             if around is not None:
-                yield block, sensor, f"sensor `{sensor.name}` is inside of the shape of link `{around}`"
+                yield block, sensor, f"sensor `{sensor.name}` is inside the shape of link `{around}`"
                 continue
             rays = _fan(sensor.element) if kind in _LIDARS else [(0.0, 0.0), *_AROUND]
             hit = [_first(solids, eye, *angles) for angles in rays]
             seen = [name for name in hit if name is not None]
             if len(seen) >= _BLOCKED * len(rays):
-                yield block, sensor, f"sensor `{sensor.name}` faces the shape of link `{seen[0]}` only"
+                yield block, sensor, f"sensor `{sensor.name}` faces only the shape of link `{seen[0]}`"
 
 
 _AROUND = ((_TILT, 0.0), (-_TILT, 0.0), (0.0, _TILT), (0.0, -_TILT))

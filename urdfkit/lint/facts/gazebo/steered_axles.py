@@ -129,7 +129,7 @@ def tight_turns(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 node = group.find(name)
                 value = number_of(node) if node is not None and node.kind == "text" else None
                 if node is not None and value is not None and 0.0 < value < 0.9 * radius:
-                    message = f"`{name}` is {value:g} m, but the steering joints allow {radius:.3g} m at least"
+                    message = f"`{name}` is {value:g} m, but the steering joints allow at least {radius:.3g} m"
                     yield source, node, message
             node, plugin = group.find("use_rotate_to_heading"), group.find("plugin")
             is_pursuit = plugin is not None and "RegulatedPurePursuit" in plugin.text

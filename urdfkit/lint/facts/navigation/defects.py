@@ -338,7 +338,7 @@ def _filter(group: Node, controllers: frozenset[str]) -> Defects:
                 yield key, f"unknown parameter `{key.text}` of robot_localization" + Suggestion(right, key.text)
             continue
         if at[2] == "config" and value.items and all(each.text == "false" for each in value.items):
-            yield value, f"`{key.text}` is false for each value, so the filter does not use `{at[1]}`"
+            yield value, f"`{key.text}` is false for every value, so the filter does not use `{at[1]}`"
         if at[2] == "config" and at[1] not in inputs:
             others = [each for each in sorted(inputs) if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", each)]
             free = [each for each in others if f"{each}_config" not in inputs]

@@ -164,7 +164,7 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
             yield each.source, config, f"`{name}_config` fuses {', '.join(fused)}, which its messages do not have"
         if each.is_global and name in absolute and len(absolute) > 1 and topic.text.strip("/") in relative:
             message = (
-                f"`{name}_config` fuses x and y of odometry that drifts against `{{}}`; fuse its velocities instead"
+                f"`{name}_config` fuses x and y of drifting odometry in addition to `{{}}`; fuse its velocities instead"
             )
             yield each.source, config, message.format(next(one for one in absolute if one != name))
     positions = [name for name, _, _, values in inputs if set(values[:2]) <= {*_TRUE}]

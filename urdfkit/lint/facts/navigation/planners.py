@@ -106,7 +106,7 @@ def _in_ros1(source: Source) -> Defects:
                     yield source, place, f"`{key.text}` has no parameter `{old}`" + Suggestion(new, old)
             is_class = key.text in (*_LOADED, "type") and value.kind == "text"
             if is_class and value.text.startswith("nav2_") and re.search("costmap_2d|planner", value.text):
-                yield source, value, f"plugin `{value.text}` is of Nav2, which ROS 1 does not have"
+                yield source, value, f"plugin `{value.text}` belongs to Nav2, which ROS 1 does not have"
             elif key.text == "type" and (at := re.fullmatch(r"costmap_2d/(\w+)", value.text)):
                 yield source, value, f"unknown plugin `{value.text}`" + Suggestion(f"costmap_2d::{at[1]}", value.text)
             elif key.text in _LOADED or (key.text == "type" and value.text.startswith("costmap_2d")):
@@ -129,7 +129,11 @@ def _mixed(source: Source) -> Defects:
     for plugin in found[few] if len(found[few]) < len(found[many]) else ():
         right = plugin.text.replace(few, many)
         release = "since Jazzy" if many == "::" else "up to Iron"
-        yield source, plugin, f"`{plugin.text}` is of another release than the other plugins; {release} it is `{right}`"
+        yield (
+            source,
+            plugin,
+            f"`{plugin.text}` and the other plugins are from different releases; {release} it is `{right}`",
+        )
 
 
 def _costmap_topics(source: Source) -> Defects:

@@ -72,7 +72,7 @@ def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], 
                 conditions = {**first.conditions, **second.conditions}
                 when = " and ".join(f"`{each}` is {str(value).lower()}" for each, value in conditions.items())
                 labels = f"`{first.label}` and `{second.label}`"
-                message = f"{labels} both publish the transform from the map to the odometry"
+                message = f"{labels} both publish the transform from the map frame to the odometry frame"
                 both = first.label, second.label
                 yield source, second.place, both, f"{message} if {when}" if when else message
 

@@ -95,7 +95,7 @@ def misnamed(model: Model) -> Defects:
                 message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
                 yield node.source, _span(node), message
             elif node.name is not None and (unused := _unused(node, by_file[file], readers, started)):
-                message = f"node `{name}` has no section in {_short(file)}, and no node is called `{unused}`"
+                message = f"node `{name}` has no section in {_short(file)}, and no node is named `{unused}`"
                 yield node.source, _span(node), message
     yield from _unmanaged(model, nodes, {each for each in started if each})
 

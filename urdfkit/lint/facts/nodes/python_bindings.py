@@ -103,7 +103,7 @@ def miscalled(tree: ast.Module) -> list[tuple[ast.Call, str]]:
             elif lacking:
                 found.append((call, f"`{name}` needs the argument `{lacking[0]}`"))
             elif parts.vararg is None and len(call.args) > len(names):
-                found.append((call, f"`{name}` is called with {len(call.args)} arguments, but has {len(names)}"))
+                found.append((call, f"`{name}` is called with {len(call.args)} arguments, but accepts {len(names)}"))
     return found
 
 

@@ -54,7 +54,7 @@ def without_clock(model: Model) -> Defects:
             at = (None if is_python else _name_place(node)) or node.place
             if other is not None and at is not None:
                 label = node.name.name if node.name is not None else node.program
-                message = f"node `{label}` has no `{_KEY}`, but the other `{other.program}` has"
+                message = f"node `{label}` has no `{_KEY}`, but the other `{other.program}` has it"
                 same = node.program == other.program
                 yield source, at, message if same else message.replace("the other ", "")
 

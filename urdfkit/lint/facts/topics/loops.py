@@ -37,6 +37,6 @@ def self_readers(model: Model) -> Iterator[tuple[Source, Named, str]]:
                     yield (
                         node.source,
                         new,
-                        f"`{node.program}` reads and publishes `{new.name}`, so it reads its own output",
+                        f"`{node.program}` publishes on `{new.name}` and subscribes to it, and reads its own output",
                     )
                 break

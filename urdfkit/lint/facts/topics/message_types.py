@@ -55,7 +55,7 @@ def mistyped(model: Model) -> Iterator[tuple[Span, str]]:
         span = mention.source.span(start, start + len(name))
         if found and mention.type not in found and mention.type in _DATA_TYPES:
             what = " and ".join(sorted(found))
-            yield span, f"this parameter reads {mention.type} messages, but `{name}` has {what} messages"
+            yield span, f"this parameter expects {mention.type} messages, but `{name}` has {what} messages"
         elif not found and name.strip("/") not in seen and (other := unbridged.get(name.strip("/"))):
             seen.add(name.strip("/"))
             yield span, f"`{name}` is a topic of Gazebo; the bridge publishes its messages on `{other}`"

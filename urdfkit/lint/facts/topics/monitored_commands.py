@@ -45,6 +45,6 @@ def unconnected_monitors(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 # Otherwise a node of another package can have the topic.
                 others = "velocity_smoother" in source.text if is_input else velocity_inputs(model)
                 if (others or near is not None) and not words.names(topic, [(source.file, start_of(source, value))]):
-                    verb = "publishes" if is_input else "reads"
+                    verb = "publishes" if is_input else "subscribes to"
                     message = f"no node {verb} the velocity commands on `{value.text}`" + Suggestion(near, value.text)
                     yield source, value, message

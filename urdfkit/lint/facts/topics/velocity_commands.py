@@ -141,8 +141,8 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
         unfed = sorted(readers - used)
         near = unfed[0] if len(unfed) == 1 else nearest(topic, unfed, cutoff=0.7)
         shown = ", ".join(f"`{name}`" for name in sorted(readers)[:3])
-        what = Suggestion(near, new.name) if near is not None else f"; the nodes of these packages read {shown}"
-        yield node.source, new, f"no node reads the velocity commands on `{new.name}`" + what
+        what = Suggestion(near, new.name) if near is not None else f"; the nodes of these packages subscribe to {shown}"
+        yield node.source, new, f"no node subscribes to the velocity commands on `{new.name}`" + what
 
 
 def _unmoved_outputs(
@@ -168,7 +168,7 @@ def _unmoved_outputs(
         others = sorted(drives if node.package == "twist_mux" else every)
         what = f"; remap it to `{others[0]}`" if len(others) == 1 else ""
         named = Named(node.source.text[slice(*node.place)], node.place[0])
-        yield node.source, named, f"no node reads the velocity commands on `{topic}` of this node{what}"
+        yield node.source, named, f"no node subscribes to the velocity commands on `{topic}` of this node{what}"
 
 
 def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:

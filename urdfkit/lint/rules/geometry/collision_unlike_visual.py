@@ -114,7 +114,7 @@ def _of_wheel(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | Non
     low, high = sorted((visual.radius, collision.radius))
     if not 0.0 < low < (1.0 - _WHEEL) * high:
         return None
-    message = f"has a radius of {collision.radius:.3g} m, the visual shape of {visual.radius:.3g} m"
+    message = f"has a radius of {collision.radius:.3g} m, but the visual shape has {visual.radius:.3g} m"
     return message, "write the radius of the wheel in both", "geometry"
 
 
@@ -133,7 +133,7 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     is_single = len(visuals) == len(collisions) == 1
     if max(ordered) <= 1.0 + _ALIKE:
         if max(ratios) >= _UNLIKE:
-            return "is turned against the visual shape", "write the same <origin> and sizes for both", "origin"
+            return "is rotated relative to the visual shape", "write the same <origin> and sizes for both", "origin"
         distance = dist(*([sum(pair) / 2.0 for pair in zip(*box, strict=True)] for box in boxes))
         if distance > _DISTANCE * max(sizes[1]):
             return f"is {distance:.3g} m away from the visual shape", "write the same <origin> for both", "origin"
@@ -144,12 +144,12 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
         low, middle, high = sorted(sizes[0])
         is_disc = middle > (1.0 - _ROUND) * high and high > _UNLIKE * low
         if is_disc and _agree((middle / 2.0, low), (collision.length, collision.radius), _ROUND):
-            return "has radius and length of the visual shape in the other order", "swap radius and length", "geometry"
+            return "has the radius and length of the visual shape swapped", "swap radius and length", "geometry"
     if type(visual) is not type(collision):
         return None
     lengths = _lengths(visual), _lengths(collision)
     if isinstance(visual, Cylinder) and _agree(lengths[0], lengths[1][::-1]) and not _agree(*lengths):
-        return "has radius and length of the visual shape in the other order", "swap radius and length", "geometry"
+        return "has the radius and length of the visual shape swapped", "swap radius and length", "geometry"
     factors = [b / a for a, b in zip(*lengths, strict=True) if a > 0.0 and b > 0.0]
     if factors and (min(factors) >= _TIMES or max(factors) <= 1.0 / _TIMES):
         times = min(factors) if min(factors) >= _TIMES else max(factors)

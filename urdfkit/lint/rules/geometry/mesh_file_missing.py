@@ -57,7 +57,7 @@ class MeshFileMissing(RobotRule):
             if model.is_unresolved(element, "filename"):
                 continue
             if "$" in mesh.uri or is_remote(mesh.uri):
-                fault = "is not a file of this machine" if is_remote(mesh.uri) else "contains an expression"
+                fault = "is not a file on this machine" if is_remote(mesh.uri) else "contains an expression"
                 message = f"mesh `{mesh.uri.strip()}` {fault}; a simulation with urdfkit ignores it"
                 yield self.at(model, element, message, attribute="filename", link=link.name, severity="note")
                 continue

@@ -57,7 +57,7 @@ class TextureMissing(RobotRule):
             if not uri or "$" in uri or model.is_unresolved(texture, "filename"):
                 continue
             if is_remote(uri):
-                message = f"texture `{uri}` is not a file of this machine"
+                message = f"texture `{uri}` is not a file on this machine"
                 yield self.at(model, texture, message, attribute="filename", severity="note")
                 continue
             try:

@@ -62,11 +62,11 @@ class DynamicsExceedEffort(RobotRule):
                 continue
             force, speed = ("N", "m/s") if joint.type == "prismatic" else ("N·m", "rad/s")
             if dynamics.friction > effort:
-                message = f"friction {dynamics.friction:g} {force} of joint `{joint.name}` holds it against its effort"
+                message = f"friction {dynamics.friction:g} {force} of joint `{joint.name}` exceeds its effort"
                 message += f" limit of {effort:g} {force}"
                 yield self.at(model, dynamics.element, message, attribute="friction", joint=joint.name)
             elif dynamics.damping > 0.0 and effort < _PART * velocity * dynamics.damping:
-                message = f"damping {dynamics.damping:g} of joint `{joint.name}` limits it to"
+                message = f"damping {dynamics.damping:g} of joint `{joint.name}` limits the velocity to"
                 message += f" {effort / dynamics.damping:.2g} {speed} at its effort limit; its velocity limit is"
                 message += f" {velocity:g} {speed}"
                 help = "check the decimal point of the damping"

@@ -168,7 +168,7 @@ class OriginTooFar(RobotRule):
         if gap < max(_MIN_OPEN, _OPEN * size) or second > _CLOSED * gap or origin is None:
             return
         message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
-        message += "all other moving joints are at theirs"
+        message += "all other moving joints are at their parent links"
         help = "check the axes, signs and units of the origin"
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
 

@@ -128,7 +128,10 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
         is_condition = name in _WHEN
         if attribute is not None and is_condition and re.search(_AROUND, attribute.value):
             what = "`$(eval …)`" if version == 1 else '`"$(eval …)"`'
-            yield attribute, f"condition `{attribute.value}` is not evaluated, because text is around it; write {what}"
+            yield (
+                attribute,
+                f"condition `{attribute.value}` is not evaluated, because other text surrounds it; write {what}",
+            )
         if attribute is None or "$(" in attribute.value:
             continue
         words = _TRUTH if is_condition or version == 2 else ("true", "false")

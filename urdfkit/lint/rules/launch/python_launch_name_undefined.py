@@ -71,7 +71,9 @@ class PythonLaunchNameUndefined(RobotRule):
             start = place(source, function)[0] + len("def ")
             span = source.span(start, start + len(function.name))
             if differs_by_a_letter(function.name, _FUNCTION) and not is_defined:
-                message = f"no function `{_FUNCTION}`, which `ros2 launch` calls; did you mean it by `{function.name}`?"
+                message = (
+                    f"no function `{_FUNCTION}`, which `ros2 launch` calls; did you misspell it as `{function.name}`?"
+                )
                 yield self.at_span(span, message)
             elif function.name == _FUNCTION and not any(_ends(node) for node in own_nodes(function)):
                 message = f"`{_FUNCTION}` does not return a LaunchDescription"

@@ -134,7 +134,9 @@ class BuildFileInconsistent(RobotRule):
                 names = (files.name, word)
                 yield self._at(files.manifest, tag.start, f"<name>{files.name}", message, kind="name", names=names)
             elif word != files.name:
-                yield self._at(source, start, word, f"project `{word}` has another name than package `{files.name}`")
+                yield self._at(
+                    source, start, word, f"project `{word}` does not have the name of package `{files.name}`"
+                )
         called = {command.name for command in every}
         found = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
         for tool, call in (("catkin", "catkin_package"), ("ament_cmake", "ament_package")):
@@ -154,9 +156,7 @@ class BuildFileInconsistent(RobotRule):
             first, separator, _ = word.partition("/")
             near = nearest(first, _DESTINATIONS, cutoff=0.7) if option == "DESTINATION" and separator else None
             if near is not None and first not in _DESTINATIONS and "$" not in first:
-                yield self._at(
-                    source, start, word, f"unknown folder `{first}` of the installation" + Suggestion(near, first)
-                )
+                yield self._at(source, start, word, f"unknown installation folder `{first}`" + Suggestion(near, first))
         for word, start in command.words[1:]:
             if word in OPTIONS or (misspelt is not None and start == misspelt[1]):
                 return

@@ -69,5 +69,5 @@ class ControllersShareInterface(RobotRule):
             span = span_of(source, claim.where)
             if (source.file, span.line, span.column) not in seen:
                 seen.add((source.file, span.line, span.column))
-                message = f"`{other}` commands `{claim.interface}` of joint `{claim.joint}` too, and is spawned before"
+                message = f"`{other}` is spawned before and also commands `{claim.interface}` of joint `{claim.joint}`"
                 yield self.at_span(span, message, names=mirrored(claim.joint))

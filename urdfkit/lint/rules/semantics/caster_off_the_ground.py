@@ -140,7 +140,7 @@ class CasterOffTheGround(RobotRule):
             is_caster = joint is not None and _CASTER_NAME.search(f"{link.name} {joint.name}") is not None
             size = max(_radius(shape.geometry) for shape in link.collisions or link.visuals)
             if is_caster and size > _MAX_CASTER * radius:
-                message = f"caster `{link.name}` has a radius of {size:.3g} m, the drive wheels of {radius:.3g} m"
+                message = f"caster `{link.name}` has a radius of {size:.3g} m, but the drive wheels have {radius:.3g} m"
                 help = "check the decimal point and the unit of the radius"
                 yield self.at(model, element, message, attribute="name", link=link.name, help=help)
             elif gap < -_MAX_DEPTH * radius:

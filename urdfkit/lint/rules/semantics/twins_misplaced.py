@@ -171,7 +171,7 @@ def _exchanged(model: Model) -> Iterator[tuple[Joint, str]]:
         )
         if abs(x) > abs(y) and abs(v) > abs(u) and u * y - v * x < 0.0:
             names = f"`{side.first.name}`, `{side.second.name}` and `{end.second.name}`"
-            yield side.first, f"joints {names}: left and right are exchanged for front and rear"
+            yield side.first, f"joints {names}: left and right are swapped with front and rear"
 
 
 def _equal_below_mirrored(model: Model) -> Iterator[tuple[Joint, str]]:
@@ -195,7 +195,7 @@ def _equal_below_mirrored(model: Model) -> Iterator[tuple[Joint, str]]:
             if len({frame.rotation for frame in frames if frame is not None}) == 1:
                 names = f"`{joint.name}` and `{other.name}`"
                 value = f"{'xyz'[k]} is {joint.origin.xyz[k]:g} m for both"
-                yield other, f"joints {names} are not mirrored as the shapes of their parents are: {value}"
+                yield other, f"joints {names} are not mirrored, unlike the shapes of their parents: {value}"
 
 
 def _are_in_one_place(pair: Twins, links: tuple[Link, Link], model: Model) -> bool:

@@ -45,6 +45,6 @@ class UndefinedArgument(FaultRule):
         if model.missing_file or did_you_mean(name, fault.candidates) or not is_required_argument(model, name):
             yield from super().check(fault, model)
         else:
-            message = f"argument `{name}` has no value, which the robot requires"
+            message = f"argument `{name}` has no value, but the robot requires one"
             help = f"pass {name}:=value to lint the robot with it"
             yield self.at(model, fault, message, attribute=fault.attribute, help=help, severity="note", names=(name,))
