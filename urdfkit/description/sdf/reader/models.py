@@ -72,7 +72,7 @@ def read_model(context: Context, element: Element) -> ReadEntity:
             if found is None:
                 continue
             if not isinstance(found.entity, WorldModel):
-                raise wrong(child, "a model may include models only, neither lights nor URDF files")
+                raise wrong(child, "a model may include only models, neither lights nor URDF files")
             if child.get("merge", "false") in ("true", "1") and found.scope is not None:
                 scope.merge(found.entity.name, found.scope, found.raw, found.placement)
                 merged.append(found.entity)

@@ -13,8 +13,8 @@ class MeshOfOtherLink(RobotRule):
 
     ## What it does
     Compares the file names, without suffix, of the visual and collision mesh of links that have one of each. Reports a
-    link whose two meshes have different names if both meshes of another link have one of these names. The two meshes of
-    most other links must have the same name.
+    link whose two meshes have different names if both meshes of another link have one of these names. Robots in which
+    most links have two meshes of different names are not checked.
 
     ## Why is this bad?
     A part is drawn in the shape of another part, or collides with it. The usual cause is a copied ``<mesh>``.

@@ -15,9 +15,9 @@ class SrdfElementUnknown(RobotRule):
     """An SRDF has a misspelt element, a misspelt or missing attribute, an empty group, or a wrong reason.
 
     ## What it does
-    Compares elements and attributes with those that srdfdom reads. Elements of other programs are accepted unless their
-    name differs slightly from one of srdfdom. A misspelt ``reason`` of a disabled pair, and the reason ``Adjacent`` of
-    links that several moving joints separate, are notes.
+    Compares elements and attributes with the names that srdfdom reads. Elements of other programs are accepted unless
+    their name nearly matches one of these. A misspelt ``reason`` of a disabled pair is a note, and so is the reason
+    ``Adjacent`` of links that several moving joints separate.
 
     ## Why is this bad?
     srdfdom ignores the element: the group does not exist, or the links collide.

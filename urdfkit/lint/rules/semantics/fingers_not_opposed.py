@@ -20,9 +20,9 @@ class FingersNotOpposed(RobotRule):
     """Two fingers of a gripper move together, past each other, or at right angles to the line between them.
 
     ## What it does
-    Compares two ``prismatic`` joints of one parent link, with ``finger``, ``grip``, ``jaw`` or ``claw`` in their names,
-    of which one mimics the other or whose names differ in a side or in the numbers 1 and 2. Between their limits, the
-    distance between the fingers must change, the fingers must not pass through each other, and fingers of the same
+    Compares two ``prismatic`` joints of one parent link with ``finger``, ``grip``, ``jaw`` or ``claw`` in their names.
+    One joint mimics the other, or their names differ only in a side or in the numbers 1 and 2. Between their limits,
+    the distance between the fingers must change, the fingers must not pass through each other, and fingers of the same
     shape must not be in the same place. A missing mesh counts as a point.
 
     ## Why is this bad?
