@@ -148,7 +148,7 @@ class Snapshots:
             here = f"{', '.join(world.names)} in world {world.name}"
             there = f"{', '.join(found['entities'])} in world {found['world']}"
             differs = "with other descriptions, options or live parameters" if here == there else f"not {here}"
-            raise SimulationError(f"the snapshot is of {there}, {differs}; restore it in a simulation like its own")
+            raise SimulationError(f"the snapshot contains {there}, {differs}; restore it in an equal simulation")
         return found, bytes(floats), bytes(integers), bytes(objects)
 
     def _model_digest(self) -> bytes:
