@@ -154,7 +154,9 @@ def test_other_bytes_are_refused_in_one_line(change: Any, reported: str) -> None
 
 def test_the_snapshot_of_another_model_or_world_is_refused() -> None:
     simulator = quiet("simpleton")
-    with pytest.raises(SimulationError, match="the snapshot contains mybot, ground_plane in world empty, not simpleton, "):
+    with pytest.raises(
+        SimulationError, match="the snapshot contains mybot, ground_plane in world empty, not simpleton, "
+    ):
         simulator.restore(quiet("mybot").snapshot())
     for other in (quiet("simpleton", dt=0.002), quiet("simpleton", fixed_base=True)):
         with pytest.raises(SimulationError, match="with other descriptions, options or live parameters"):

@@ -54,7 +54,7 @@ class NavigationSettingsInconsistent(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.navigation.commanded_speeds import unreachable_speeds
         from urdfkit.lint.facts.navigation.costmaps import costmap_defects
-        from urdfkit.lint.facts.navigation.planners import plugin_defects
+        from urdfkit.lint.facts.navigation.navigation_plugins import plugin_defects
 
         for source, node, message in (*costmap_defects(model), *plugin_defects(model), *unreachable_speeds(model)):
             yield self.at_span(span_of(source, node), message)
