@@ -26,10 +26,10 @@ from urdfkit.description import load
 from urdfkit.description.sdf import load_world
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model, robot_names
-from urdfkit.scene import lowest_point, scene_of
-from urdfkit.sim.construction.rigid_bodies import bodies_of
+from urdfkit.scene import MeshLoader, lowest_point, scene_of
+from urdfkit.sim.construction.rigid_bodies import bodies_of_model
 from urdfkit.sim.construction.surface_parameters import surfaces_of
-from urdfkit.sim.engine import Ground
+from urdfkit.sim.engine import Body, Ground
 from urdfkit.sim.state.quaternion import from_rpy
 
 Array = NDArray[np.float64]
@@ -77,6 +77,15 @@ class Agreement:
     apart: tuple[int, ...] = ()
 
 
+def bodies_of(name: str) -> tuple[Body, ...]:
+    """Return the bodies of a world."""
+    world, meshes = load_world(name), MeshLoader()
+    ground = world.ground.name if world.ground is not None else None
+    return tuple(
+        body for model in world.models for body in bodies_of_model(model, meshes, is_ground=model.name == ground)
+    )
+
+
 class Pair:
     """A robot in both engines.
 
@@ -91,7 +100,7 @@ class Pair:
         self.bolted = self.robot.roots()[0].name == "world"
         self.kinematics = Kinematics(self.robot, floating_base=not self.bolted)
         self.scene = scene_of(self.robot)
-        bodies = () if world is None else bodies_of(load_world(world))
+        bodies = () if world is None else bodies_of(world)
         self.engines = [
             engine(
                 self.kinematics,

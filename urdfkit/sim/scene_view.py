@@ -119,7 +119,7 @@ def world_scene(world: World, note: Callable[[str], None] | None = None) -> tupl
     """Return the scene of a world's bodies, and their initial poses; shape (bodies, 7).
 
     Args:
-        world: the loaded world; the names of its bodies are those of `bodies_of`, after `BODY`.
+        world: the loaded world; its bodies have their names in the simulation, after `BODY`.
         note: reports visuals with an invalid mesh, which are omitted.
 
     Raises:

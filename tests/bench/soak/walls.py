@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Box
 from urdfkit.sim import Simulator
-from urdfkit.sim.construction.rigid_bodies import bodies_of
 
 Array = NDArray[np.float64]
 
@@ -19,9 +18,8 @@ class Walls:
 
     def __init__(self, simulator: Simulator) -> None:
         into, half, self.names = [], [], []
-        for body in bodies_of(simulator.world.description):
-            if not body.static:
-                continue
+        builder = simulator.world.builder
+        for body in map(builder.body, builder.static_poses):
             frame = matrix(body.pose)
             for piece in body.pieces:
                 if isinstance(piece.shape.geometry, Box):

@@ -9,7 +9,7 @@ import pytest
 from urdfkit.description.sdf import load_world
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator, Spawn
-from urdfkit.sim.construction.rigid_bodies import bodies_of, visuals_of
+from urdfkit.sim.construction.rigid_bodies import visuals_of
 
 WORLD = """<sdf version="1.7"><world name="probe"><gravity>0 0 -9.81</gravity>
 <model name="ground_plane"><static>true</static><link name="link"><collision name="c"><geometry><plane>
@@ -150,7 +150,8 @@ def test_a_robot_pushes_what_slides(world) -> None:
 def test_what_a_world_looks_like_hangs_on_its_bodies() -> None:
     world = load_world("house")
     looks = visuals_of(world)
-    bodies = {body.name for body in bodies_of(world)}
+    builder = Simulator("simpleton", world="house").world.builder
+    bodies = {*builder.static_poses, *builder.free_bodies}
     assert {shape.body for shape in looks} <= bodies
     assert len({shape.body for shape in looks}) > 5
     assert len({shape.name for shape in looks}) == len(looks)

@@ -29,20 +29,6 @@ Placed = tuple[str, Pose, WorldLink]
 """Name in the model, pose in the model, and link."""
 
 
-def bodies_of(world: World) -> tuple[Body, ...]:
-    """Return the bodies of a world, without links that are simulated as trees because of joints or plugins.
-
-    Raises:
-        SimulationError: a model cannot be simulated; with its place.
-    """
-    require_no_joints(world)
-    meshes = MeshLoader()
-    ground = None if world.ground is None else world.ground.name
-    return tuple(
-        body for model in world.models for body in bodies_of_model(model, meshes, is_ground=model.name == ground)
-    )
-
-
 def require_no_joints(world: World) -> None:
     """Check that no joint connects two models.
 
@@ -159,7 +145,7 @@ def surfaces_of_tree(tree: Tree, note: Callable[[str], None]) -> dict[str, Surfa
 
 
 def visuals_of(world: World) -> tuple[Shape, ...]:
-    """Return the visuals of the bodies of a world, by the names that bodies have in `bodies_of`.
+    """Return the visuals of the bodies of a world, by the names of their bodies.
 
     Planes, and visuals with a missing mesh, are omitted.
 
