@@ -135,6 +135,14 @@ def test_a_solid_has_the_same_surface_from_all_sides(solid) -> None:
         assert np.quantile(off, 0.98) <= 8
 
 
+def test_a_texture_replaces_the_colours_of_vertices() -> None:
+    sign = wrapped(opaque(np.kron(QUARTERS, np.ones((4, 4, 1), np.uint8))))
+    colors = np.array([[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [90, 90, 90, 255]], dtype=np.uint8)
+    gl, rays = both(table_of(mesh_of(replace(sign, colors=colors))), lit(ambient=(1, 1, 1)))
+    eye = pose_matrix(Pose((0.0, 0.0, 2.5), (0.0, np.pi / 2, 0.0)))
+    agree(gl.take(LENS, eye), rays.take(LENS, eye))
+
+
 def test_a_house_from_many_places() -> None:
     world = load_world("house")
     scene, poses = world_scene(world)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from urdfkit.errors import UsageError
+from urdfkit.errors import SimulationError, UsageError
 from urdfkit.sim.batch import Batch
 
 gymnasium = pytest.importorskip("gymnasium")
@@ -118,6 +118,12 @@ def test_a_world_that_diverges_ends_its_episode_with_finite_observations() -> No
     assert rewards[1] == 0.0
     assert np.isfinite(infos["final_obs"]).all()
     environment.close()
+
+
+@pytest.mark.parametrize("ranges", [(-1.0, np.inf), (-np.inf, 1.0)])
+def test_a_joint_without_a_limit_on_one_side_needs_a_range(ranges: tuple[float, float]) -> None:
+    with pytest.raises(SimulationError, match="joint `left_wheel_joint` has no limit for its action; use ranges="):
+        make(ranges={"left_wheel_joint": ranges})
 
 
 def test_wrong_tasks_are_refused() -> None:

@@ -1,10 +1,15 @@
-from math import cos, pi, sin, tan
+from math import cos, hypot, pi, sin, tan
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry, DifferentialOdometry, MecanumOdometry
+from urdfkit.sim.plugins.wheel_odometry import (
+    BicycleOdometry,
+    DifferentialOdometry,
+    FourWheelOdometry,
+    MecanumOdometry,
+)
 
 
 def drive(odometry: DifferentialOdometry, v: float, w: float, seconds: float, rate: float, separation: float) -> None:
@@ -75,6 +80,32 @@ def test_mecanum_wheels_are_exact_at_any_rate(vx: float, vy: float, w: float) ->
     assert odometry.heading == pytest.approx(angle, abs=1e-12)
     assert (odometry.x, odometry.y) == pytest.approx((vx * s - vy * c, vx * c + vy * s), abs=1e-5)
     assert odometry.moved == pytest.approx((vx / 2, vy / 2, w / 2), abs=1e-12)
+
+
+@given(st.floats(-1, 1), st.floats(-0.6, 0.6), st.floats(-0.6, 0.6))
+def test_four_steered_wheels_that_roll_without_slip_move_as_their_axles_do(v: float, front: float, rear: float) -> None:
+    base, track = 1.2, 0.8
+    turn = v * (tan(front) - tan(rear)) / base  # of a body whose middle moves along x at v
+    left = v * (tan(front) + tan(rear)) / 2
+    ways = []
+    for x in (base / 2, -base / 2):
+        for y in (track / 2, -track / 2):
+            velocity = v - turn * y, left + turn * x
+            ways.append(hypot(*velocity) * (1 if velocity[0] >= 0 else -1))
+    found = FourWheelOdometry(base, track, 0.0).displacement(ways, front, rear)
+    assert found == pytest.approx((v, left, turn), abs=1e-9)
+
+
+def test_wheels_beside_their_steering_joints_roll_less_on_the_inner_side() -> None:
+    base, track, offset, front = 1.2, 0.8, 0.1, 0.5
+    rear = -front
+    radius = base / 2 / tan(front)  # of the path of the middle
+    ways = []
+    for side in (1, -1):  # the knuckle is at half the track, the wheel `offset` outside of it
+        knuckle = hypot(base / 2, radius - side * track / 2)
+        ways.append(knuckle - side * offset)
+    found = FourWheelOdometry(base, track, offset).displacement([*ways, *ways], front, rear)
+    assert found == pytest.approx((radius, 0.0, 1.0), abs=1e-9)  # of a turn of 1 rad
 
 
 def test_the_first_look_at_the_wheels_only_remembers() -> None:

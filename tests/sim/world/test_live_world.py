@@ -146,6 +146,16 @@ def test_a_link_of_a_robot_is_pushed_as_hard() -> None:
     assert not simulator.world.robots["simpleton"].articulation.applied.any()
 
 
+def test_a_robot_is_placed_with_a_velocity_along_the_axes_of_the_world() -> None:
+    simulator = Simulator("simpleton", world="void", gravity=(0.0, 0.0, 0.0))
+    simulator.world.place("simpleton", (1.0, 2.0, 3.0, 0.0, 0.0, 1.5707963267948966), (0.5, 0.2, -0.1, 0.0, 0.0, 0.0))
+    joints = simulator.state.v[6:].copy()
+    assert simulator.state.v[:6] == pytest.approx([0.2, -0.5, -0.1, 0.0, 0.0, 0.0])  # in the frame of the robot
+    assert not joints.any()
+    simulator.world.place("simpleton", (1.0, 2.0, 3.0, 0.0, 0.0, 1.5707963267948966), (0.0, 0.0, 0.0, 0.3, 0.0, 0.4))
+    assert simulator.state.v[:6] == pytest.approx([0.0, 0.0, 0.0, 0.0, -0.3, 0.4])
+
+
 def test_a_wall_is_put_elsewhere() -> None:
     simulator = Simulator("simpleton")
     simulator.world.spawn("wall", (5.0, 0.0, 0.0))

@@ -114,6 +114,15 @@ def test_a_mass_of_zero_is_estimated_and_a_written_mass_kept(arm: Repaired) -> N
     assert (first.code, second.code) == ("I501", "E014")
 
 
+def test_a_negative_mass_is_not_replaced_by_an_estimate(arm: Repaired) -> None:
+    box = shape("collision", '<box size="0.1 0.2 0.3"/>')
+    robot, repairs = arm(f'{box}<inertial><mass value="-1"/></inertial>')
+    inertial = robot.link_by_name["l0"].inertial
+    assert inertial is not None
+    assert (inertial.mass, inertial.inertia) == (-1.0, None)
+    assert repairs == []
+
+
 def test_a_mass_without_shapes_has_the_inertia_of_a_sphere(arm: Repaired) -> None:
     robot, (repair,) = arm(INERTIAL.format(x=0, m=2, i=0))
     radius = (3 * 2 / (4 * np.pi * 1000)) ** (1 / 3)

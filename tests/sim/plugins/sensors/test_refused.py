@@ -44,6 +44,7 @@ KINECT = (
 CAMERA = "<camera><image><width>8</width><height>6</height></image></camera>"
 
 WRONG = [
+    (BLOCK.format(LASER), "this plugin must be in a <sensor>"),
     (BLOCK.format(sensor(LASER, type="raay")), "unknown sensor type `raay`; did you mean `ray`?"),
     (
         BLOCK.format(sensor(type="rgbd_camra", inside="")),
@@ -178,6 +179,15 @@ REMARKED = [
         "with this distortion, 9",
     ),
 ]
+
+
+@pytest.mark.parametrize(
+    ("file", "code"), [("libmy_own.so", "Z833"), ("libgazebo_ros_lazer.so", "Z825"), ("", "Z809"), (" ", "Z809")]
+)
+def test_the_code_of_a_plugin_without_a_simulation_depends_on_its_library(robot, file: str, code: str) -> None:
+    blocks = f'<gazebo><plugin name="p" filename="{file}"/></gazebo>'
+    simulator = Simulator(load(robot(blocks)), world="void", note=lambda _: None)
+    assert [repair.code for repair in simulator.repairs] == [code]
 
 
 @pytest.mark.parametrize(("blocks", "reported"), REMARKED)
