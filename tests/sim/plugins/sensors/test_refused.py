@@ -44,7 +44,6 @@ KINECT = (
 CAMERA = "<camera><image><width>8</width><height>6</height></image></camera>"
 
 WRONG = [
-    (BLOCK.format(LASER), "this plugin must be in a <sensor>"),
     (BLOCK.format(sensor(LASER, type="raay")), "unknown sensor type `raay`; did you mean `ray`?"),
     (
         BLOCK.format(sensor(type="rgbd_camra", inside="")),
@@ -104,6 +103,7 @@ WRONG = [
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_lazer"))),
         "no plugin `libgazebo_ros_lazer.so`; sensor `lidar` is ignored; did you mean `libgazebo_ros_laser.so`?",
     ),
+    (BLOCK.format(LASER), "this plugin must be in a <sensor>"),
 ]
 
 
