@@ -43,3 +43,11 @@ def test_each_link_is_read_twice_at_most(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr(attached_bodies, "_moment", lambda link: calls.append(link) or 1.0)
     assert not any(map(found.is_negligible, links))
     assert len(calls) <= 2 * count
+
+
+def test_links_that_fixed_joints_connect_in_either_direction_are_one_body(tmp_path: Path) -> None:
+    joints = [(1, 0, "fixed"), (2, 0, "fixed"), (3, 2, "continuous"), (4, 3, "fixed")]
+    found, links = bodies(tmp_path, [1.0] * 5, joints)
+    first, second, third, fourth, fifth = (found.body_of(link.name) for link in links)
+    assert first == second == third != fourth == fifth
+    assert found.body_of("unknown") == "unknown"

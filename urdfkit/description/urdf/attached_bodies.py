@@ -22,6 +22,10 @@ class AttachedBodies:
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
 
+    def body_of(self, name: str) -> str:
+        """Return the name of the link that represents a body: the links that fixed joints connect with a link."""
+        return self._bodies.get(name, name)
+
     def is_negligible(self, link: Link) -> bool:
         """Return whether the mass and the inertia of a link are negligible: it is fixed to a heavier parent."""
         return self.is_fixed(link) and self.is_small(link)
@@ -29,7 +33,7 @@ class AttachedBodies:
     def is_small(self, link: Link) -> bool:
         """Return whether fixed joints attach a link to one with much more mass and inertia, in either direction."""
         own = _mass(link), _moment(link)
-        largest = self._largest[self._body_of.get(link.name, link.name)]
+        largest = self._largest[self.body_of(link.name)]
         others = [pair[1] if pair[0] == value else pair[0] for pair, value in zip(largest, own, strict=True)]
         return all(value <= NEGLIGIBLE * other for value, other in zip(own, others, strict=True))
 
@@ -39,10 +43,10 @@ class AttachedBodies:
 
     def is_fixed_to_world(self, link: Link) -> bool:
         """Return whether fixed joints attach a link to the link ``world``, so that its inertia has no effect."""
-        return self._body_of.get(link.name, link.name) == self._body_of.get("world", "world")
+        return self.body_of(link.name) == self.body_of("world")
 
     @cached_property
-    def _body_of(self) -> dict[str, str]:
+    def _bodies(self) -> dict[str, str]:
         """Name of a link → name of a link that represents its body; without links that no fixed joint attaches."""
         neighbours: dict[str, list[str]] = {}
         for joint in self._robot.joints:
@@ -64,7 +68,7 @@ class AttachedBodies:
         """Name of the link that represents a body → its two largest masses and moments."""
         found: dict[str, _Largest] = {}
         for link in self._robot.link_by_name_in_order():
-            body = self._body_of.get(link.name, link.name)
+            body = self.body_of(link.name)
             masses, moments = found.get(body, ((0.0, 0.0), (0.0, 0.0)))
             found[body] = _two_largest(*masses, _mass(link)), _two_largest(*moments, _moment(link))
         return found

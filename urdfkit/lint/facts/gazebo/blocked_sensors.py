@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import cos, dist, inf, isfinite, pi, sin, sqrt
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.geometry import rotate
 from urdfkit.description.urdf.robot import Box, Cylinder, GazeboBlock, Geometry, Pose, SensorTag, Sphere, Vector
 from urdfkit.description.xml.element import Element
@@ -40,7 +41,7 @@ Solid = tuple[str, Geometry, Frame]
 
 def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]]:
     """Yield the sensors that see nothing but the robot, with the message."""
-    groups: dict[str, str] = {}
+    attached = AttachedBodies(model.robot)
     bodies: list[Solid] = []
     for block in model.robot.gazebo:
         for sensor in block.sensors:
@@ -48,7 +49,7 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]
             kind = sensor.type or ""
             if frame is None or kind not in (*_LIDARS, *_CAMERAS):
                 continue
-            groups, bodies = groups or _rigid_groups(model), bodies or list(_solids(model))
+            bodies = bodies or list(_solids(model))
             pose = _pose(sensor.element)
             if pose is None or model.is_unresolved(sensor.element):
                 continue
@@ -57,7 +58,7 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]
                 solid
                 for solid in bodies
                 if solid[0] != block.reference
-                and groups.get(solid[0]) == groups.get(block.reference or "")
+                and attached.body_of(solid[0]) == attached.body_of(block.reference or "")
                 and dist(solid[2].translation, eye.translation) > _PLACED
             ]
             around = next((name for name, shape, at in solids if _depth(shape, _local(at, eye)) > _INSIDE), None)
@@ -73,19 +74,6 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]
 
 _AROUND = ((_TILT, 0.0), (-_TILT, 0.0), (0.0, _TILT), (0.0, -_TILT))
 """Yaw and pitch of further directions of a camera."""
-
-
-def _rigid_groups(model: Model) -> dict[str, str]:
-    """Return link → the highest link that it is fixed to."""
-    fixed = {joint.child: joint.parent for joint in model.robot.joints if joint.type == "fixed"}
-    found = {}
-    for link in model.robot.links:
-        name, seen = link.name, {link.name}
-        while (parent := fixed.get(name)) is not None and parent not in seen:
-            name = parent
-            seen.add(name)
-        found[link.name] = name
-    return found
 
 
 def _solids(model: Model) -> Iterator[Solid]:

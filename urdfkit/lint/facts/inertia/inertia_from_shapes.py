@@ -7,6 +7,7 @@ from urdfkit.lint.finding import Fix
 from urdfkit.lint.fix_builders import new_values
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import Extent
+from urdfkit.position import Position
 
 COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """URDF names of the entries of a tensor."""
@@ -51,6 +52,16 @@ def computed(model: Model, link: Link, element: Element) -> Fix | None:
     largest = max(values)
     texts = {name: _written(value, largest) for name, value in zip(COMPONENTS, values, strict=True)}
     return new_values(model, element, texts, "unsafe", "Compute it from shape and mass")
+
+
+def place_and_help(element: Element, plausible: list[Element]) -> tuple[Element | Position, str]:
+    """Return the place of an implausible tensor and the help: the macro call if other calls give plausible tensors."""
+    from urdfkit.lint.facts.root_cause import call_of
+
+    call = call_of(element, plausible) if element.origin.expansions else None
+    if call is None:
+        return element, "compute it from shape and mass"
+    return call, "check the arguments of this macro call; other calls give plausible tensors"
 
 
 def _written(value: float, largest: float) -> str:

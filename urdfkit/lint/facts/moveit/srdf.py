@@ -141,19 +141,6 @@ def path_between(base: str, tip: str, robot: Robot) -> list[Joint] | None:
     return path
 
 
-def rigid_links(link: str, robot: Robot) -> set[str]:
-    """Return a link and the links that only fixed joints separate from it."""
-    found, pending = {link}, [link]
-    fixed = [joint for joint in robot.joints if joint.type == "fixed" and joint.parent and joint.child]
-    for each in pending:  # The list grows during the iteration.
-        near = [
-            b for joint in fixed for a, b in ((joint.parent, joint.child), (joint.child, joint.parent)) if a == each
-        ]
-        pending += [name for name in near if name and name not in found]
-        found.update(name for name in near if name)
-    return found
-
-
 def joints_of(group: str, root: Element, robot: Robot) -> set[str] | None:
     """Return the joints of a group, those of its subgroups included; None if a name in it is unknown."""
     by_name, found, pending, seen = groups(root), set[str](), [group], set[str]()

@@ -2,20 +2,13 @@
 
 from urdfkit.description.urdf.values import LARGEST as BEYOND
 from urdfkit.description.xml.numbers import numbers
+from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 LARGEST = 1e10
 """Largest plausible value, in SI units."""
 
-_ATTRIBUTES = {
-    "origin": ("xyz", "rpy", "quat_xyzw"),
-    "mass": ("value",),
-    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-    "box": ("size",),
-    "cylinder": ("radius", "length"),
-    "sphere": ("radius",),
-    "capsule": ("radius", "length"),
-}
+_TAGS = ("origin", "mass", "inertia", "box", "cylinder", "sphere", "capsule")
 
 
 class NanOrInf(RobotRule):
@@ -63,7 +56,7 @@ class NanOrInf(RobotRule):
             if problem.kind == "not-finite":
                 yield self.at(model, problem.element, problem.message, attribute=problem.attribute)
         for element in model.elements:
-            for attribute in _ATTRIBUTES.get(element.tag, ()):
+            for attribute in URDF_ATTRIBUTES[element.tag] if element.tag in _TAGS else ():
                 text = element.get(attribute)
                 # Only text with an exponent or at least eleven characters can be that large.
                 if text is None or (len(text) < 11 and "e" not in text.lower()):

@@ -8,7 +8,7 @@ from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import is_identity, principal_moments
 from urdfkit.description.urdf.robot import Link
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
+from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, place_and_help
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -99,12 +99,7 @@ class InertiaTooLarge(RobotRule):
                     plausible.append(element)
         bodies = AttachedBodies(model.robot)
         for link, element, message in implausible:
-            from urdfkit.lint.facts.root_cause import call_of
-
-            call = call_of(element, plausible) if element.origin.expansions else None
-            help = "compute it from shape and mass"
-            if call is not None:
-                help = "check the arguments of this macro call; other calls give plausible tensors"
+            place, help = place_and_help(element, plausible)
             fix = computed(model, link, element)
             severity: Severity | None = "note" if bodies.is_negligible(link) else None
-            yield self.at(model, call or element, message, link=link.name, help=help, fix=fix, severity=severity)
+            yield self.at(model, place, message, link=link.name, help=help, fix=fix, severity=severity)

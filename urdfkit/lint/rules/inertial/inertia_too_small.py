@@ -5,7 +5,7 @@ from math import sqrt
 from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
+from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, place_and_help
 from urdfkit.lint.model.placement import shapes_of, solid
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -93,14 +93,9 @@ class InertiaTooSmall(RobotRule):
                 else:
                     plausible.append(element)
         for link, element, message in implausible:
-            from urdfkit.lint.facts.root_cause import call_of
-
-            call = call_of(element, plausible) if element.origin.expansions else None
-            help = "compute it from shape and mass"
-            if call is not None:
-                help = "check the arguments of this macro call; other calls give plausible tensors"
+            place, help = place_and_help(element, plausible)
             fix = computed(model, link, element)
-            yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)
+            yield self.at(model, place, message, link=link.name, help=help, fix=fix)
 
 
 def _has_detached_shape(model: Model, link: Link) -> bool:

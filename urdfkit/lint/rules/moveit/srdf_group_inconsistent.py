@@ -119,7 +119,8 @@ class SrdfGroupInconsistent(RobotRule):
 
     def _carried(self, effector: Element, root: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for a parent link that moving joints separate from the group of an end effector."""
-        from urdfkit.lint.facts.moveit.srdf import joints_of, rigid_links
+        from urdfkit.description.urdf.attached_bodies import AttachedBodies
+        from urdfkit.lint.facts.moveit.srdf import joints_of
 
         robot, group, parent = model.robot, effector.get("group") or "", effector.get("parent_link") or ""
         members = [
@@ -127,8 +128,9 @@ class SrdfGroupInconsistent(RobotRule):
         ]
         inside = {joint.child for joint in members if joint.child}
         carriers = sorted({joint.parent for joint in members if joint.parent and joint.parent not in inside})
-        near = {link for each in (*carriers, *inside) for link in rigid_links(each, robot)}
-        if carriers and parent not in near:  # Pinocchio's SRDF names the tip of the group.
+        body_of = AttachedBodies(robot).body_of
+        near = {body_of(each) for each in (*carriers, *inside)}
+        if carriers and body_of(parent) not in near:  # Pinocchio's SRDF names the tip of the group.
             message = f"parent link `{parent}` of end effector `{effector.get('name')}` does not carry group `{group}`"
             help = f"write `{carriers[0]}`, or a link that is fixed to it"
             yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
