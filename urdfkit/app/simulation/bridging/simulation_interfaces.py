@@ -151,7 +151,9 @@ class _StandardServices:
     def reset(self, request: Any) -> dict[str, Any]:
         """Reset; a paused simulation stays paused."""
         if request.scope not in (*ALL, SPAWNED):
-            raise _ResultError(UNSUPPORTED, f"scope {request.scope}: time and state are reset together")
+            raise _ResultError(
+                UNSUPPORTED, f"scope {request.scope} is not supported, because time and state are reset together"
+            )
         if request.scope != 3:
             for name in tuple(self._simulator.world.spawned):
                 self._simulator.world.remove(name)

@@ -40,7 +40,9 @@ class Playback(Feature):
             done += chunk
         self.pace.restart(self.simulator.t)
         if done < wanted:
-            raise SimulationError(f"stopped after {LONGEST:g} s: {done} of {wanted} steps done; request the rest again")
+            raise SimulationError(
+                f"stopped after {LONGEST:g} s with {done} of {wanted} steps done; request the remaining steps"
+            )
         return {"time": self.simulator.t}
 
     def _speed(self, request: Request) -> Done:

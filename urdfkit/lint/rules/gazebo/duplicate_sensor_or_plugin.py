@@ -12,9 +12,9 @@ class DuplicateSensorOrPlugin(RobotRule):
     """Two sensors of a link, or two plugins, have the same name.
 
     ## What it does
-    Compares the names of the sensors of each link (an error), of plugins in the same scope (a warning), and of plugins
-    of gazebo_ros in different sensors (a note, because each sensor is a separate scope, but in ROS 2 the name of the
-    plugin is the name of its node). Other plugins in different sensors can share a name.
+    Compares the names of the sensors of each link (an error) and of plugins in the same scope (a warning). Each sensor
+    is a separate scope, so plugins in different sensors can share a name. Equal names of gazebo_ros plugins are a note,
+    because in ROS 2 the name of the plugin is the name of its node.
 
     ## Why is this bad?
     SDF requires unique names: Gazebo rejects the model, or both publish on the same topic.

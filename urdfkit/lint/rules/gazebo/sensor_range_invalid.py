@@ -12,11 +12,13 @@ class SensorRangeInvalid(RobotRule):
     """A sensor has an invalid range, resolution, field of view or rate.
 
     ## What it does
-    Checks for lidars without samples or with a resolution of zero, for a minimum above its maximum (``<min>`` and
-    ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and ``<far>``, ``<pointCloudCutoff>`` and
-    ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``), and for cameras without a valid field of view. Also
-    checks for values that are not numbers, negative rates and standard deviations, angles of more than a full turn, and
-    unknown types of ``<noise>``.
+    Checks for:
+
+    - lidars without samples or with a resolution of zero, and cameras without a valid field of view
+    - a minimum above its maximum: ``<min>`` and ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and
+      ``<far>``, ``<pointCloudCutoff>`` and ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``
+    - values that are not numbers, negative rates and standard deviations, and angles of more than a full turn
+    - unknown types of ``<noise>``
 
     ## Why is this bad?
     The sensor measures nothing, and ``urdfkit sim`` omits it.

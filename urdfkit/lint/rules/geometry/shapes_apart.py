@@ -21,8 +21,8 @@ class ShapesApart(RobotRule):
     ## What it does
     Checks for shapes that extend ten times farther from the centre of mass than the other shapes of their link, and so
     far that the inertia contradicts them (by the criterion of I508). Meshes that are too large are reported by G604.
-    Two kinds of shapes are not checked: visuals that are more than half transparent, which often show the view of a
-    sensor, and collision spheres around the whole link of up to a hundred times its size, which keep obstacles away.
+    Two kinds of shapes are not checked. Visuals that are more than half transparent often show the view of a sensor.
+    Collision spheres around the whole link, of up to a hundred times its size, keep obstacles away.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. The usual

@@ -48,8 +48,8 @@ class OriginTooFar(RobotRule):
     parent link.
 
     If the sizes of all shapes are known, also reports a joint that separates its child link, with everything attached
-    to it, from the rest of the robot. The gap must be longer than most of the robot, and longer than the largest link
-    or than four times the two links of the joint, whichever is smaller.
+    to it, from the rest of the robot. The gap must be longer than most of the robot. It must also exceed the smaller of
+    two lengths: the size of the largest link, and four times the size of the larger link of the joint.
 
     A moving joint outside the bounding box of its parent link is reported if every other moving joint is inside or at
     the box of its parent link. Joints of a root link without shapes are not checked, because they place the robot in

@@ -20,10 +20,10 @@ class ControllerContradictsWheels(RobotRule):
 
     ## What it does
     Compares ``wheel_separation``, ``wheel_radius``, and the ``wheelbase`` and tracks of steering controllers in YAML
-    with the joints and shapes of the wheels, and checks the positions of the left and right wheels: x points
-    forward and y left (REP 103). Deviations of up to 10 % are accepted. With several wheels on each side, up to
-    twice the separation is accepted, because the wheels slip when the robot turns. Wheels with meshes are not
-    measured. A left and a right wheel at the same place are reported.
+    with the joints and shapes of the wheels. Also checks the positions of the left and right wheels: x points forward
+    and y left (REP 103). Deviations of up to 10 % are accepted. With several wheels on each side, up to twice the
+    separation is accepted, because the wheels slip when the robot turns. Wheels with meshes are not measured. A left
+    and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
