@@ -96,6 +96,17 @@ def test_four_steered_wheels_that_roll_without_slip_move_as_their_axles_do(v: fl
     assert found == pytest.approx((v, left, turn), abs=1e-9)
 
 
+def test_four_wheels_are_integrated_at_the_mean_of_their_steering_angles() -> None:
+    base, track, offset = 1.2, 0.8, 0.1
+    odometry = FourWheelOdometry(base, track, offset)
+    readings = (1.0, 1.1, 1.2, 1.3, 0.1, -0.2), (1.5, 1.7, 1.8, 2.0, 0.3, 0.1)
+    for t, reading in enumerate(readings):
+        odometry.update(float(t), *reading)
+    expected = FourWheelOdometry(base, track, offset).displacement((0.5, 0.6, 0.6, 0.7), 0.2, -0.05)
+    assert odometry.moved == pytest.approx(expected)
+    assert odometry.velocity == odometry.moved
+
+
 def test_wheels_beside_their_steering_joints_roll_less_on_the_inner_side() -> None:
     base, track, offset, front = 1.2, 0.8, 0.1, 0.5
     rear = -front

@@ -213,6 +213,8 @@ def test_velocity_pid_with_a_large_derivative_is_stable(make: Make) -> None:
         "pid: {p: 100.0, i: 0.01, d: 10.0}}\n"
     )
     simulator = make(yaml, dt=0.005, gravity=(0, 0, 0))
+    simulator.run(0.5)
+    assert simulator.state.velocity("shoulder") == pytest.approx(0.0, abs=1e-9)
     send(simulator, "/arm/a/command", 0.5)
     simulator.run(3.0)
     assert simulator.state.velocity("shoulder") == pytest.approx(0.5, abs=0.01)

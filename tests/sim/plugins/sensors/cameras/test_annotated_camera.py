@@ -173,7 +173,9 @@ def test_boxes_in_space_have_place_axes_and_size_of_the_thing(post) -> None:
     simulator = post(boxed("3d"), room=room)
     (message,) = heard(simulator, "/boxes")
     (detection,) = message.detections
-    assert detection.results[0].hypothesis.class_id == "6"
+    (result,) = detection.results
+    assert (result.hypothesis.class_id, result.pose.pose.orientation.w) == ("6", 1.0)
+    assert result.pose.covariance.tolist() == [0.0] * 36
     assert message.header.frame_id
     centre, turn, size = detection.bbox.center.position, detection.bbox.center.orientation, detection.bbox.size
     assert (centre.x, centre.y, centre.z) == pytest.approx((3.0, 0.4, 0.2), abs=1e-6)
