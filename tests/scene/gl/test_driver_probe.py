@@ -11,6 +11,7 @@ import pytest
 
 from tests.scene.gl.test_same_picture import table_of, zoo
 from tests.scene.test_ray_renderer import lit
+from tests.system_packages import missing
 from tests.time_limit import PATIENCE
 from urdfkit.description.sdf import Light
 from urdfkit.errors import SimulationError
@@ -42,6 +43,15 @@ def test_a_broken_driver_takes_only_its_own_process_down(program: str, reported:
 def test_what_works_is_reported_with_its_name() -> None:
     line = '{"works": true, "backend": "egl", "name": "a card"}'
     assert run_probe([sys.executable, "-c", f"print('chatter'); print('{line}')"]) == Found(True, "egl", "a card")
+
+
+@pytest.mark.skipif(bool(missing(["opengl"])), reason="Mesa is not installed")
+def test_the_software_driver_of_mesa_works(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not marked with `opengl`: tests with that mark are skipped if the probe finds no driver that works."""
+    monkeypatch.setenv("LIBGL_ALWAYS_SOFTWARE", "1")
+    found = run_probe([sys.executable, "-m", "urdfkit.scene.gl.driver_probe"])
+    assert found.works, found.name
+    assert on_processor(found.name)
 
 
 def test_a_program_that_is_not_there() -> None:
