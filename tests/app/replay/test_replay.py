@@ -144,6 +144,15 @@ def test_values_between_two_messages_are_interpolated() -> None:
     np.testing.assert_allclose(np.abs(poses.at(0.5)), np.abs(turned(0, 0, 0.2)), atol=1e-12)
 
 
+def test_a_value_replaces_one_of_the_same_time_and_the_oldest_ones_are_dropped() -> None:
+    line, short = Timeline(), Timeline(2)
+    for t, value in ((1.0, 1.0), (2.0, 2.0), (3.0, 3.0), (3.0, 5.0), (1.0, 4.0), (2.0, 6.0), (0.0, 8.0)):
+        line.add(t, (value,))
+        short.add(t, (value,))
+    assert [float(line.at(t)[0]) for t in (0.0, 1.0, 2.0, 2.5, 3.0)] == [8.0, 4.0, 6.0, 5.5, 5.0]
+    assert [float(short.at(t)[0]) for t in (0.0, 2.0, 2.5, 3.0)] == [6.0, 6.0, 5.5, 5.0]
+
+
 def test_frames_without_a_common_ancestor_have_no_transform_and_loops_end() -> None:
     frames, ros = RecordedFrames(), Messages(2)
     frames.add(0.0, ros.transforms(0.0, ("a", "b", turned(1, 0, 0)), ("c", "d", turned(0, 0, 0))))
