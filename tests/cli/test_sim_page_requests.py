@@ -306,6 +306,11 @@ def test_long_messages_are_cut_and_values_that_are_not_finite_are_sent() -> None
     json.dumps(shown, allow_nan=False)
 
 
+def test_requests_that_change_nothing_need_no_permission_to_drive(ride) -> None:
+    reading = {"actions", "form", "get_pose", "goal_state", "save", "service_type", "services"}
+    assert {name for name, schema in ride.page.requests.items() if not schema.changes} == reading
+
+
 def test_objects_come_move_and_go(ride) -> None:
     first = len(ride.page.shown[-1])
     # Where the kernels are not compiled yet, the first insertion warns about it.
