@@ -96,6 +96,8 @@ ROBOT: tuple[Row, ...] = (
     ("mimic", "joints.mimic_joint_undefined", "MimicJointUndefined"),
     ("type=fixed", "joints.axis_or_limit_on_fixed", "AxisOrLimitOnFixed"),
     ("box cylinder sphere capsule mesh", "joints.origin_too_far", "OriginTooFar"),
+    ("box cylinder sphere capsule", "joints.joint_off_its_parent", "JointOffItsParent"),
+    ("type=revolute type=continuous", "joints.axes_on_one_line", "AxesOnOneLine"),
     ("type=prismatic", "joints.slide_off_its_parent", "SlideOffItsParent"),
     ("type=prismatic", "joints.stroke_too_long", "StrokeTooLong"),
     ("mimic", "joints.mimic_beyond_limits", "MimicBeyondLimits"),
@@ -152,6 +154,7 @@ ROBOT: tuple[Row, ...] = (
     ("gazebo", "semantics.drive_wheel_without_friction", "DriveWheelWithoutFriction"),
     ("sensor", "semantics.sensor_view_blocked", "SensorViewBlocked"),
     ("plugin", "semantics.caster_with_friction", "CasterWithFriction"),
+    ("type=fixed", "semantics.tool_frame_inside_body", "ToolFrameInsideBody"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),
@@ -196,6 +199,7 @@ ROBOT: tuple[Row, ...] = (
     ("ros2_control", "control.hardware_without_plugin", "HardwareWithoutPlugin"),
     ("ros2_control", "control.interface_limits", "InterfaceLimits"),
     ("ros2_control", "control.ros2_control_mimic", "Ros2ControlMimic"),
+    ("transmission ros2_control", "control.control_joint_repeated", "ControlJointRepeated"),
 )
 
 _LAUNCH = ".launch .launch.xml .launch.py .launch.yaml _launch.xml _launch.py _launch.yaml"

@@ -66,7 +66,9 @@ def variants_of(model: Model, arguments: Mapping[str, str]) -> list[Variant]:
     declared = declared_arguments(model.expanded.sources.values()) if is_xacro(path) else {}
     if not declared:
         return []
-    passed = passed_to(path, model.expanded.packages)
+    included = [Path(name) for name, source in model.expanded.sources.items() if "<xacro:arg" in source.text]
+    files = {file.resolve(): None for file in (path, *included)}  # MoveIt's packages include the description
+    passed = [each for file in files for each in passed_to(file, model.expanded.packages)]
     found: dict[tuple[tuple[str, str], ...], Variant] = {}
     for purpose in ("simulation", "display"):
         for each in for_purpose(passed, purpose):

@@ -70,6 +70,37 @@ def call_of(element: Element, right: Iterable[Element]) -> Position | None:
     )
 
 
+def shared_argument(model: Model, element: Element, attribute: str, other: Element) -> Place | None:
+    """Return the argument of a macro call whose value another call of the macro repeats; None if any number differs.
+
+    Args:
+        model: the linted model.
+        element: an element that a macro produced.
+        attribute: an attribute that uses arguments of the macro.
+        other: the same element, produced by another call.
+    """
+    calls, others = element.origin.expansions, other.origin.expansions
+    tag = model.tag(element.origin.position) if calls and element.origin.position == other.origin.position else None
+    macro = model.expanded.macros.get(calls[0].macro) if tag is not None else None
+    if tag is None or macro is None or len(calls) != len(others):
+        return None
+    written = tag.attributes.get(attribute)
+    used = {name for inside in re.findall(_EXPRESSION, written.value if written else "") for name in _names(inside)}
+    found = None
+    for name in macro.parameters:
+        values = [value_of(model, name, each) for each in (calls, others)]
+        numbers = [number(value.strip()) for value, _, _ in values]
+        if numbers[0] != numbers[1]:
+            return None
+        if numbers[0] is not None and name in used:
+            found = values[0][1]
+    return found
+
+
+def _names(expression: str) -> list[str]:
+    return re.findall(_NAME, expression)
+
+
 def cause_in_text(
     model: Model, text: str, calls: Sequence[Expansion], is_wrong: Callable[[str], bool], steps: int = 0
 ) -> Place | None:
@@ -84,7 +115,7 @@ def cause_in_text(
     """
     if steps > _MAX_STEPS:
         return None
-    names = {name for inside in re.findall(_EXPRESSION, text) for name in re.findall(_NAME, inside)}
+    names = {name for inside in re.findall(_EXPRESSION, text) for name in _names(inside)}
     found: dict[Place, str] = {}
     for name in names:
         value, place, outer = value_of(model, name, calls)

@@ -169,6 +169,25 @@ def joints_of(group: str, root: Element, robot: Robot) -> set[str] | None:
     return found
 
 
+def near_links(link: str, model: Model) -> set[str]:
+    """Return the links that at most one moving joint separates from a link; links without shapes do not count."""
+    robot = model.robot
+    near: dict[str, list[tuple[str, bool]]] = {}
+    for joint in robot.joints:
+        if joint.parent is not None and joint.child is not None:
+            near.setdefault(joint.parent, []).append((joint.child, joint.type == "fixed"))
+            near.setdefault(joint.child, []).append((joint.parent, joint.type == "fixed"))
+    distances, pending = {link: 0}, [link]
+    for each in pending:  # The list grows during the iteration.
+        for name, is_fixed in near.get(each, ()):
+            part = robot.link_by_name.get(name)
+            further = distances[each] + (not is_fixed and part is not None and bool(part.collisions))
+            if further < distances.get(name, 2):
+                distances[name] = further
+                pending.append(name)
+    return set(distances)
+
+
 @lru_cache(maxsize=1)
 def robot_names(model: Model) -> list[str]:
     """Return patterns of the names of all robots in the packages of the related files, or in the robot's folder."""

@@ -1,6 +1,6 @@
 """G620 collision-unlike-visual."""
 
-from math import dist
+from math import dist, inf, prod
 
 from urdfkit.description.urdf.geometry import box_around, box_around_all
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Sphere, Vector
@@ -37,8 +37,8 @@ class CollisionUnlikeVisual(RobotRule):
     ## What it does
     Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in
     different poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision
-    shape that is three times larger or smaller in all directions than a visual shape of the same kind, and wheels with
-    two radii.
+    shape that is three times larger or smaller in all directions than a visual shape of the same kind, boxes of which
+    two sides are, and wheels with two radii.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was
@@ -154,6 +154,13 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     if factors and (min(factors) >= _TIMES or max(factors) <= 1.0 / _TIMES):
         times = min(factors) if min(factors) >= _TIMES else max(factors)
         return f"is {times:.3g} times as large as the visual shape", "check the decimal points and units", "geometry"
+    times = prod(factors)
+    is_one_way = min(factors, default=0.0) > 1.0 - _ALIKE or max(factors, default=inf) < 1.0 + _ALIKE
+    is_cube = len(set(lengths[1])) == 1  # A cube around a stick is on purpose.
+    unlike = [factor for factor in factors if not 1.0 / _TIMES < factor < _TIMES]
+    if len(factors) == 3 and len(unlike) > 1 and is_one_way and not is_cube:
+        message = f"is {times:.3g} times as large as the visual shape"
+        return message, "check whether the size is that of another link", "geometry"
     return None
 
 

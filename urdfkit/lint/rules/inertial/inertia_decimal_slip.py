@@ -92,12 +92,14 @@ class InertiaDecimalSlip(RobotRule):
             power = next((k for k in powers if 1.0 / SCALED_AGREEMENT < ratio * 10.0**k < SCALED_AGREEMENT), None)
             if power is not None:
                 corrected = f"{moment * 10.0**power:.6g}"
+                is_impossible = 2.0 * max(written) > sum(written)  # principal moments, which I503 reports otherwise
                 yield self.at(
                     model,
                     inertia.element,
                     f"link `{link.name}`: {name}={moment:g} kg·m² is off by a factor of {10 ** abs(power)}",
                     attribute=name,
                     link=link.name,
+                    severity="error" if is_impossible else None,
                     help=f"shape and mass give {moment / ratio:.3g} kg·m²; did you mean {corrected}?",
                     fix=new_value(model, inertia.element, name, corrected, "unsafe", f"Replace with {corrected}"),
                 )

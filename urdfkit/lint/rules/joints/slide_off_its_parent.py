@@ -7,8 +7,11 @@ from urdfkit.description.urdf.robot import Joint, Pose, Vector
 from urdfkit.lint.model.placement import Extent, Frame
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
-_PART = 0.3
+_PART = 0.1
 """Smallest gap between the links at a limit, as a part of the stroke."""
+
+_RAIL = 3.0
+"""Smallest ratio of the length of a rail along the axis to its other sizes."""
 
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -16,15 +19,17 @@ Corners = tuple[Vector, Vector]
 
 
 class SlideOffItsParent(RobotRule):
-    """A prismatic joint moves its child link off the parent link, probably along the wrong axis.
+    """A prismatic joint moves its child link off the parent link.
 
     ## What it does
-    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if the boxes
-    touch at position zero, are separated by 30 % of the stroke at a limit, and would touch at both limits if the joint
-    moved along another axis of its frame.
+    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if they touch
+    with the joint at zero, have a gap of 10 % of the stroke at a limit, and touch at both limits with another axis of
+    the joint frame, or along the parent link, if that is a rail: three times as long as wide. A column that is longer
+    than its stroke may rise out of its parent link.
 
     ## Why is this bad?
-    The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x.
+    The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x. Or the
+    limits are twice as large, because the stroke was written for each direction.
 
     ## Example
     ```xml
@@ -80,19 +85,40 @@ class SlideOffItsParent(RobotRule):
             if high <= low or _gap(joint, axis, (0.0,), parent, child) > 0.02 * (high - low):
                 continue
             gap = _gap(joint, axis, (low, high), parent, child)
-            if gap < _PART * (high - low):
+            if gap < _PART * (high - low) or _rises(joint, axis, high - low, parent, child):
                 continue
+            message = f"joint `{joint.name}` moves `{joint.child}` {gap:.3g} m away from `{joint.parent}`"
             fitting = [each for each in _AXES if _gap(joint, each, (low, high), parent, child) < 0.02 * (high - low)]
             if len(fitting) == 1:
                 right = " ".join(f"{part:g}" for part in fitting[0])
-                yield self.at(
-                    model,
-                    joint.element.find("axis") or joint.element,
-                    f"joint `{joint.name}` moves `{joint.child}` {gap:.3g} m away from `{joint.parent}`",
-                    attribute="xyz",
-                    joint=joint.name,
-                    help=f'along <axis xyz="{right}"/> they stay in contact',
-                )
+                element = joint.element.find("axis") or joint.element
+                help = f'along <axis xyz="{right}"/> they stay in contact'
+                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
+            elif not fitting and _is_along(joint, axis, parent):
+                help = "the limits are longer than the rail; check whether they are those of each direction"
+                yield self.at(model, limit.element, message, joint=joint.name, help=help)
+
+
+def _sizes(extent: Extent) -> list[float]:
+    return [high - low for low, high in zip(extent.low, extent.high, strict=True)]
+
+
+def _rises(joint: Joint, axis: Vector, stroke: float, parent: Extent, child: Extent) -> bool:
+    """Return whether a column, at least as long as the stroke, moves out of the side of the parent that it touches."""
+    length = max(abs(part) * size for part, size in zip(axis, _sizes(child), strict=True))
+    small = 1e-3 * stroke
+    x, y, z = (small * part for part in axis)
+    away = max(_gap(joint, axis, (sign * 1.01 * small,), parent, child) for sign in (1.0, -1.0))
+    return length >= stroke and away > 0.9 * hypot(x, y, z)
+
+
+def _is_along(joint: Joint, axis: Vector, parent: Extent) -> bool:
+    """Return whether a joint moves along the longest side of a rail."""
+    direction, sizes = rotate(rotation_of(joint.origin.rpy), axis), _sizes(parent)
+    longest = max(range(3), key=lambda k: sizes[k])
+    return abs(direction[longest]) > 0.99 and sizes[longest] >= _RAIL * max(
+        size for k, size in enumerate(sizes) if k != longest
+    )
 
 
 def _gap(joint: Joint, axis: Vector, positions: tuple[float, ...], parent: Extent, child: Extent) -> float:

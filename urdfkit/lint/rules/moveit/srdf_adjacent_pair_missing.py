@@ -62,7 +62,7 @@ class SrdfAdjacentPairMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each pair of adjacent links that is missing."""
-        from urdfkit.lint.facts.moveit.srdf import semantics_of, severity_for
+        from urdfkit.lint.facts.moveit.srdf import near_links, semantics_of, severity_for
 
         if model.is_incomplete:
             return
@@ -81,14 +81,26 @@ class SrdfAdjacentPairMissing(RobotRule):
             # Other rules report a pair that names one link twice, or a link that does not exist.
             wrong = [each for each in disabled if len(each) < 2 or not each <= links]
             missing = [(joint, pair) for joint, pair in missing if not any(pair & each for each in wrong)]
+            apart = {
+                each: element
+                for each, element in disabled.items()
+                if element.get("reason") == "Adjacent" and each <= links and len(each) == 2
+                if not each <= near_links(next(iter(each)), model)
+            }
             for joint, pair in missing:
+                confused = next((each for each in apart if each & pair), None)
                 near = next((element for links, element in disabled.items() if links & pair), root)
+                near = apart[confused] if confused is not None else near
                 message = (
                     f"links `{joint.parent}` and `{joint.child}` are adjacent, but their collisions are not disabled"
                 )
+                if confused is not None:
+                    one, other = _links(near)
+                    message += f"; those of `{one}` and `{other}` are, which are not adjacent"
+                names = tuple({*pair, *(confused or ())})
                 written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
                 severity = severity_for(root, model)
-                yield self.at(model, near, message, help=f"add {written}", severity=severity)
+                yield self.at(model, near, message, help=f"add {written}", severity=severity, names=names)
 
 
 def _adjacent(model: Model, solid: set[str], disabled: dict[frozenset[str], Element]) -> tuple[list[Pair], list[Pair]]:

@@ -88,6 +88,7 @@ class SrdfElementUnknown(RobotRule):
 
     def _reason(self, pair: Element, model: Model) -> Findings:
         """Yield a finding for a disabled pair with a misspelt or wrong reason."""
+        from urdfkit.lint.facts.moveit.srdf import near_links
         from urdfkit.lint.fix_builders import nearest
 
         reason = pair.get("reason") or ""
@@ -105,25 +106,7 @@ class SrdfElementUnknown(RobotRule):
             yield self.at(model, pair, message, attribute="reason", help=help, severity="note", kind="reason")
         elif reason != "Adjacent" or one not in links or other not in links or model.is_incomplete:
             return
-        elif other not in _adjacent(one, model):
+        elif other not in near_links(one, model):
             message = f"the reason is `Adjacent`, but several joints separate links `{one}` and `{other}`"
-            yield self.at(model, pair, message, attribute="reason", severity="note", kind="reason")
-
-
-def _adjacent(link: str, model: Model) -> set[str]:
-    """Return the links that at most one moving joint separates from a link; links without shapes do not count."""
-    robot = model.robot
-    near: dict[str, list[tuple[str, bool]]] = {}
-    for joint in robot.joints:
-        if joint.parent is not None and joint.child is not None:
-            near.setdefault(joint.parent, []).append((joint.child, joint.type == "fixed"))
-            near.setdefault(joint.child, []).append((joint.parent, joint.type == "fixed"))
-    distances, pending = {link: 0}, [link]
-    for each in pending:  # The list grows during the iteration.
-        for name, is_fixed in near.get(each, ()):
-            part = robot.link_by_name.get(name)
-            further = distances[each] + (not is_fixed and part is not None and bool(part.collisions))
-            if further < distances.get(name, 2):
-                distances[name] = further
-                pending.append(name)
-    return set(distances)
+            names = (one, other)
+            yield self.at(model, pair, message, attribute="reason", severity="note", kind="reason", names=names)

@@ -133,7 +133,8 @@ class SrdfGroupInconsistent(RobotRule):
         if carriers and body_of(parent) not in near:  # Pinocchio's SRDF names the tip of the group.
             message = f"parent link `{parent}` of end effector `{effector.get('name')}` does not carry group `{group}`"
             help = f"write `{carriers[0]}`, or a link that is fixed to it"
-            yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
+            names = (parent, *carriers, *sorted(inside))
+            yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity, names=names)
 
     def _passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for each passive joint that a mimic joint follows, or that a MoveIt controller moves."""

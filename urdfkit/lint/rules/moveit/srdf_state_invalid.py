@@ -60,6 +60,7 @@ class SrdfStateInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid value, and for joints that are missing in a state or in its group."""
+        from urdfkit.lint.facts.moveit.reversed_limits import reversed_limits
         from urdfkit.lint.facts.moveit.srdf import fits, joints_of, semantics_of, severity_for
         from urdfkit.lint.fix_builders import nearest
 
@@ -72,11 +73,20 @@ class SrdfStateInvalid(RobotRule):
             wrong = dict(self._exchanged(root, model))
             for element, message in wrong.values():
                 yield self.at(model, element, message, attribute="name", joint=element.get("name"), severity=severity)
+            excluded: set[str] = set()
+            for joints, numbers in reversed_limits(root, robot):
+                excluded |= {joint.name for joint in joints}
+                limit = joints[0].limit
+                shown = ", ".join(f"{number:g}" for number in dict.fromkeys(numbers))
+                message = f"the limits of joint `{joints[0].name}` exclude all states of the SRDF ({shown})"
+                if limit is not None:
+                    help = "check the signs of the limits"
+                    yield self.at(model, limit.element, message, joint=joints[0].name, severity=severity, help=help)
             for state in root.find_all("group_state"):
                 group, values = state.get("group") or "", state.find_all("joint")
                 is_compared = group not in wrong and fits(root, robot)
                 members = (joints_of(group, root, robot) if is_compared else None) or set()
-                for value in values:
+                for value in (value for value in values if value.get("name") not in excluded):
                     yield from self._value(value, model, severity_for(root, model, "error"))
                 foreign = [
                     value for value in values if members and value.get("name") in robot.joint_by_name.keys() - members

@@ -105,7 +105,7 @@ class AxisContradictsPart(RobotRule):
             is_whole = joint.is_movable and joint.child in model.robot.link_by_name
             axis = _axis_in_root(joint, model) if is_whole else None
             message = _defect(joint, axis, partners.get(joint.name), model) if axis is not None else None
-            if message is not None and not _is_disc(joint, model):
+            if message is not None and (joint.name in partners or not _is_disc(joint, model)):
                 found.add(joint.name)
                 yield self._at(joint, message, model)
         for pair in pairs:

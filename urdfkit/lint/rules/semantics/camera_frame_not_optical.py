@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.description.urdf.geometry import rotation_of
+from urdfkit.description.urdf.robot import GazeboBlock
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
+_TO_THE_RIGHT = 0.9
+"""Cosine of the largest angle to the negative y axis of the parent link."""
+
 
 class CameraFrameNotOptical(RobotRule):
-    """The images of a camera are in the frame of its body, although it has an optical frame.
+    """The images of a camera are in the frame of its body, or the camera itself is in the optical frame.
 
     ## What it does
     Checks ``optical_frame_id`` and the frames of camera plugins of Gazebo Classic. Reports a link that has a child with
-    ``optical`` in its name on a fixed joint.
+    ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in a link whose x axis points to the right
+    of its parent link, as that of an optical frame does: the view of the camera is along x.
 
     ## Why is this bad?
     Images and depth are measured along the z axis of their frame. In the frame of the body, point clouds and markers
@@ -75,14 +81,35 @@ class CameraFrameNotOptical(RobotRule):
             if optical and "optical" not in name.lower():
                 message = f"<{element.tag}> is `{name}`, which is not an optical frame"
                 yield self.at(model, element, message, link=name, help=f"write `{optical[0]}`")
+        for block, carrier in _sideways(model):
+            name = block.reference or ""
+            message = f"the camera in `{name}` looks along x, which points to the right of `{carrier}`"
+            help = f"write `{carrier}`, and `{name}` as the frame of the images"
+            yield self.at(model, block.element, message, attribute="reference", link=name, help=help)
+
+
+def _sideways(model: Model) -> Iterator[tuple[GazeboBlock, str]]:
+    """Yield the blocks with a camera in an optical frame, and the link that carries the frame."""
+    parents = {joint.child: joint for joint in model.robot.joints if joint.type == "fixed" and joint.parent}
+    for block in model.robot.gazebo:
+        joint = parents.get(block.reference)
+        if joint is None or "optical" not in (block.reference or "").lower():
+            continue
+        x_axis = [row[0] for row in rotation_of(joint.origin.rpy)]
+        cameras = [sensor for sensor in block.sensors if _is_camera(sensor.type or "")]
+        if x_axis[1] < -_TO_THE_RIGHT and any(sensor.element.find("pose") is None for sensor in cameras):
+            yield block, joint.parent or ""
+
+
+def _is_camera(kind: str) -> bool:
+    return "camera" in kind or kind.strip() in ("depth", "multicamera")
 
 
 def _frames(model: Model) -> Iterator[Element]:
     """Yield the elements that name the frame of the images of a camera."""
     for block in model.robot.gazebo:
         for sensor in block.sensors:
-            kind = (sensor.type or "").strip()
-            if "camera" not in kind and kind not in ("depth", "multicamera"):
+            if not _is_camera(sensor.type or ""):
                 continue
             yield from (each for each in sensor.element.walk() if each.tag == "optical_frame_id")
             for plugin in sensor.plugins:

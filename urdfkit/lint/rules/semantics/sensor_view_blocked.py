@@ -57,8 +57,10 @@ class SensorViewBlocked(RobotRule):
         for block, sensor, message in blocked_sensors(model):
             joint = parents.get(block.reference)
             origin = joint.element.find("origin") if joint is not None else None
-            if joint is None or origin is None or sensor.element.find("pose") is not None:
-                yield self.at(model, sensor.element.find("pose") or sensor.element, message, link=block.reference)
+            pose = sensor.element.find("pose")
+            is_placed = pose is not None and any(word.strip("+-0.") for word in (pose.text or "").split())
+            if joint is None or origin is None or is_placed:
+                yield self.at(model, pose or sensor.element, message, link=block.reference)
                 continue
             help = f"check the origin of joint `{joint.name}`"
             yield self.at(model, origin, message, link=block.reference, joint=joint.name, help=help)

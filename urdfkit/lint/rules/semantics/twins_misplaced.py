@@ -6,6 +6,8 @@ from math import dist, hypot, inf
 
 from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.mirrored_shapes import unmirrored_shapes
+from urdfkit.lint.facts.root_cause import shared_argument
 from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, twins
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -37,6 +39,7 @@ class TwinsMisplaced(RobotRule):
       that differ by more than a twentieth
     - sides and ends that are exchanged
     - joints with equal offsets on parents whose shapes are mirrored
+    - shapes with equal offsets on links whose joints are mirrored
 
     ## Why is this bad?
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
@@ -112,12 +115,20 @@ class TwinsMisplaced(RobotRule):
             if found.isdisjoint((pair.first.name, pair.second.name)):
                 found.add(wrong.name)
                 origin = wrong.element.find("origin") or wrong.element
-                names = (pair.first.name, pair.second.name)
-                yield self.at(model, origin, message, attribute="xyz", joint=wrong.name, help=help, names=names)
+                names: tuple[str, ...] = (pair.first.name, pair.second.name)
+                names += tuple(link for joint in (pair.first, pair.second) if (link := joint.child))
+                other = (pair.first if wrong is pair.second else pair.second).element.find("origin")
+                argument = shared_argument(model, origin, "xyz", other) if other is not None else None
+                place, attribute = argument or (origin, "xyz")
+                yield self.at(model, place, message, attribute=attribute, joint=wrong.name, help=help, names=names)
         for joint, message in (*_exchanged(model), *_equal_below_mirrored(model)) if not found else ():
             origin = joint.element.find("origin") or joint.element
             help = "check the signs of the coordinates"
             yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+            break
+        for link, place, message in unmirrored_shapes(model) if not found else ():
+            help = "check the sign of the offset"
+            yield self.at(model, place, message, attribute="xyz", link=link.name, help=help)
             break
 
 

@@ -1,0 +1,122 @@
+"""Where the frames of joints lie in the shapes of their parent links: on the surface, outside or inside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import hypot
+
+from urdfkit.description.urdf.geometry import box_around
+from urdfkit.description.urdf.robot import Joint, Mesh, Vector
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.placement import Extent, Frame, shapes_of
+from urdfkit.record import record
+
+_EXACT = 1e-4
+"""Largest distance of a joint from the surface of its parent link that counts as zero [m]."""
+
+_FAR, _DEEP = 0.003, 0.005
+"""Smallest distances outside and inside of the shape that are a defect [m]."""
+
+_PART = 0.02
+"""Smallest part of the size of the parent link that these distances are."""
+
+_OVERLAP = 0.3
+"""Smallest part of the child link that is inside of the shape of the parent link of a joint that is too deep."""
+
+_FEWEST = 4
+"""Smallest number of joints on the surfaces of their parent links of which one stands out."""
+
+Corners = tuple[Vector, Vector]
+
+
+@record(eq=False)
+class Place:
+    """Place of a joint at its parent link.
+
+    Attributes:
+        joint: the joint.
+        element: its ``<origin>``.
+        depth: depth of the joint below the surface of the parent link; negative outside [m].
+        overlap: part of the child link that is inside of the parent link.
+        size: extent of the parent link [m].
+    """
+
+    joint: Joint
+    element: Element
+    depth: float
+    overlap: float
+    size: float
+
+
+def misplaced(model: Model) -> Iterator[Place]:
+    """Yield the place that is off the surface of its parent link, if all other joints are on the surface of theirs.
+
+    Compares joints that turn or slide within limits, and fixed joints with such joints below. The joints of one macro
+    count as one.
+    """
+    places: dict[object, list[Place]] = {}
+    for place in _places(model):
+        places.setdefault(place.element.origin.position, []).append(place)
+    off = [each for each in places.values() if any(abs(one.depth) > _EXACT for one in each)]
+    if len(off) == 1 and len(places) > _FEWEST:
+        one = max(off[0], key=lambda each: abs(each.depth))
+        is_outside = -one.depth >= max(_FAR, _PART * one.size)
+        if is_outside or (one.depth >= max(_DEEP, _PART * one.size) and one.overlap >= _OVERLAP):
+            yield one
+
+
+def _places(model: Model) -> Iterator[Place]:
+    carriers = _carriers(model)
+    for joint in model.robot.joints:
+        is_compared = joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers)
+        parent, link = model.extents.get(joint.parent or ""), model.robot.link_by_name.get(joint.parent or "")
+        if not is_compared or parent is None or link is None:
+            continue
+        if any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
+            continue
+        element = joint.element.find("origin") or joint.element
+        child = model.extents.get(joint.child or "")
+        overlap = _overlap(joint, parent, child) if child is not None else 0.0
+        yield Place(joint, element, depth(joint.origin.xyz, parent), overlap, parent.diagonal)
+
+
+def _carriers(model: Model) -> set[str]:
+    """Return the links with joints that turn or slide within limits below them."""
+    found: set[str] = set()
+    parents = {joint.child: joint.parent for joint in model.robot.joints}
+    for joint in model.robot.joints:
+        link = joint.parent if joint.type in ("revolute", "prismatic") else None
+        while link is not None and link not in found:
+            found.add(link)
+            link = parents.get(link)
+    return found
+
+
+def depth(point: Vector, extent: Extent) -> float:
+    """Return the depth of a point below the surface of the box around the shapes of a link; negative outside [m]."""
+    outside = [max(a - x, x - b, 0.0) for a, x, b in zip(extent.low, point, extent.high, strict=True)]
+    if any(outside):
+        return -hypot(*outside)
+    return min(min(x - a, b - x) for a, x, b in zip(extent.low, point, extent.high, strict=True))
+
+
+def _overlap(joint: Joint, parent: Extent, child: Extent) -> float:
+    """Return the part of the box around a child link that is inside of the box around its parent link."""
+    frame, part, whole = Frame().moved(joint.origin), 0.0, 0.0
+    for shape, pose in child.shapes:
+        at = frame.moved(pose)
+        low, high = box_around(shape, type(pose)(at.translation, _rpy(at)))
+        sides = [
+            (max(min(b, d) - max(a, c), 0.0), d - c)
+            for a, b, c, d in zip(parent.low, parent.high, low, high, strict=True)
+        ]
+        part += sides[0][0] * sides[1][0] * sides[2][0]
+        whole += sides[0][1] * sides[1][1] * sides[2][1]
+    return part / whole if whole > 0.0 else 0.0
+
+
+def _rpy(frame: Frame) -> Vector:
+    from urdfkit.description.urdf.geometry import rpy_of
+
+    return rpy_of(frame.rotation)

@@ -1,0 +1,128 @@
+"""J427 joint-off-its-parent."""
+
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class JointOffItsParent(RobotRule):
+    """A joint is outside or inside of its parent link; all other joints are at the surface of theirs.
+
+    ## What it does
+    Compares the places of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the boxes
+    around the shapes of their parent links. If at least four joints are exactly on the surface and one is not, this one
+    is reported: it is at a distance from the shape, or so deep inside that its child link is in the parent link.
+
+    ## Why is this bad?
+    The child link floats or is sunk in its parent link, and all frames below are in the wrong place. Usually the length
+    of another link was used, or the joint has the wrong parent link.
+
+    ## Example
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:macro name="tube" params="name">
+        <link name="${name}">
+          <visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/></geometry></visual>
+          <inertial>
+            <origin xyz="0 0 0.1"/><mass value="1"/>
+            <inertia ixx="0.0036" ixy="0" ixz="0" iyy="0.0036" iyz="0" izz="0.00045"/>
+          </inertial>
+        </link>
+      </xacro:macro>
+      <xacro:tube name="base"/>
+      <xacro:tube name="link_1"/>
+      <xacro:tube name="link_2"/>
+      <xacro:tube name="link_3"/>
+      <xacro:tube name="link_4"/>
+      <xacro:tube name="link_5"/>
+      <joint name="joint_1" type="revolute">
+        <parent link="base"/><child link="link_1"/><axis xyz="0 0 1"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_2" type="revolute">
+        <parent link="link_1"/><child link="link_2"/><axis xyz="0 1 0"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_3" type="revolute">
+        <parent link="link_2"/><child link="link_3"/><axis xyz="0 0 1"/>
+        <origin xyz="0 0 0.25"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_4" type="revolute">
+        <parent link="link_3"/><child link="link_4"/><axis xyz="0 1 0"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_5" type="revolute">
+        <parent link="link_4"/><child link="link_5"/><axis xyz="0 0 1"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:macro name="tube" params="name">
+        <link name="${name}">
+          <visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/></geometry></visual>
+          <inertial>
+            <origin xyz="0 0 0.1"/><mass value="1"/>
+            <inertia ixx="0.0036" ixy="0" ixz="0" iyy="0.0036" iyz="0" izz="0.00045"/>
+          </inertial>
+        </link>
+      </xacro:macro>
+      <xacro:tube name="base"/>
+      <xacro:tube name="link_1"/>
+      <xacro:tube name="link_2"/>
+      <xacro:tube name="link_3"/>
+      <xacro:tube name="link_4"/>
+      <xacro:tube name="link_5"/>
+      <joint name="joint_1" type="revolute">
+        <parent link="base"/><child link="link_1"/><axis xyz="0 0 1"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_2" type="revolute">
+        <parent link="link_1"/><child link="link_2"/><axis xyz="0 1 0"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_3" type="revolute">
+        <parent link="link_2"/><child link="link_3"/><axis xyz="0 0 1"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_4" type="revolute">
+        <parent link="link_3"/><child link="link_4"/><axis xyz="0 1 0"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+      <joint name="joint_5" type="revolute">
+        <parent link="link_4"/><child link="link_5"/><axis xyz="0 0 1"/>
+        <origin xyz="0 0 0.2"/>
+        <limit lower="-1" upper="1" effort="10" velocity="1"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "J427"
+    name = "joint-off-its-parent"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for the only joint that is not at the surface of its parent link."""
+        from urdfkit.lint.facts.joint_places import misplaced
+
+        if model.is_incomplete:
+            return
+        for place in misplaced(model):
+            joint = place.joint
+            where = f"{-place.depth:.3g} m outside of" if place.depth < 0.0 else f"{place.depth:.3g} m inside of"
+            message = f"joint `{joint.name}` is {where} its parent link `{joint.parent}`; "
+            message += "all other joints are on the surface of theirs"
+            help = "check the parent link and the origin"
+            names = tuple(name for name in (joint.child, joint.parent) if name)
+            yield self.at(model, place.element, message, attribute="xyz", joint=joint.name, help=help, names=names)

@@ -1,0 +1,101 @@
+"""S918 tool-frame-inside-body."""
+
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class ToolFrameInsideBody(RobotRule):
+    """The frame of a tool is inside of the gripper, or a camera next to the tool looks back at the arm.
+
+    ## What it does
+    Checks frames without shapes that are fixed to a link with fingers and have ``tcp``, ``tool``, ``grasp``, ``tip`` or
+    ``end_effector`` in their names. Reports a frame that is inside of a box or cylinder of that link. Also reports an
+    optical frame of a camera that is fixed to the last link of an arm, if its z axis points away from the fingers or
+    the tool.
+
+    ## Why is this bad?
+    The gripper collides with objects at the pose that it plans for, and the camera sees the arm. Usually the offset is
+    that of another link, or an angle has the wrong sign.
+
+    ## Example
+    ```xml
+    <robot name="gripper">
+      <link name="palm">
+        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="0.5"/>
+          <inertia ixx="0.000833" ixy="0" ixz="0" iyy="0.000833" iyz="0" izz="0.000833"/>
+        </inertial>
+      </link>
+      <link name="finger">
+        <visual><geometry><box size="0.02 0.01 0.06"/></geometry></visual>
+        <inertial>
+          <mass value="0.05"/>
+          <inertia ixx="1.54e-05" ixy="0" ixz="0" iyy="1.67e-05" iyz="0" izz="2.08e-06"/>
+        </inertial>
+      </link>
+      <link name="tcp"/>
+      <joint name="finger_joint" type="prismatic">
+        <parent link="palm"/><child link="finger"/>
+        <origin xyz="0 0.01 0.08"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+      </joint>
+      <joint name="tcp_joint" type="fixed">
+        <parent link="palm"/><child link="tcp"/>
+        <origin xyz="0 0 0.03"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="gripper">
+      <link name="palm">
+        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="0.5"/>
+          <inertia ixx="0.000833" ixy="0" ixz="0" iyy="0.000833" iyz="0" izz="0.000833"/>
+        </inertial>
+      </link>
+      <link name="finger">
+        <visual><geometry><box size="0.02 0.01 0.06"/></geometry></visual>
+        <inertial>
+          <mass value="0.05"/>
+          <inertia ixx="1.54e-05" ixy="0" ixz="0" iyy="1.67e-05" iyz="0" izz="2.08e-06"/>
+        </inertial>
+      </link>
+      <link name="tcp"/>
+      <joint name="finger_joint" type="prismatic">
+        <parent link="palm"/><child link="finger"/>
+        <origin xyz="0 0.01 0.08"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+      </joint>
+      <joint name="tcp_joint" type="fixed">
+        <parent link="palm"/><child link="tcp"/>
+        <origin xyz="0 0 0.1"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "S918"
+    name = "tool-frame-inside-body"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each frame and camera, at the origin of its joint."""
+        from urdfkit.lint.facts.tools import cameras_looking_back, tools_inside
+
+        if model.is_damaged:
+            return
+        for joint, depth in tools_inside(model):
+            message = f"frame `{joint.child}` is {depth:.3g} m inside of the shape of link `{joint.parent}`"
+            place = joint.element.find("origin") or joint.element
+            help = "move it to the tips of the fingers"
+            yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
+        for joint in cameras_looking_back(model):
+            message = f"camera `{joint.child}` looks away from the tool, at the arm"
+            place = joint.element.find("origin") or joint.element
+            help = "check the rpy of the origin"
+            yield self.at(model, place, message, attribute="rpy", joint=joint.name, help=help)
