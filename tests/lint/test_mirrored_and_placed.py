@@ -39,12 +39,12 @@ SRDF = """<robot name="arms">
 
 
 def found(folder, old, new, srdf=""):
-    """Code, line of the text before the change, and message of each finding."""
+    """Return code, line, message and help of each finding."""
     assert old in ARMS
     (folder / "arms.urdf.xacro").write_text(ARMS.replace(old, new))
     if srdf:
         (folder / "arms.srdf").write_text(srdf)
-    return {(one.code, one.line, one.message) for one in lint(folder / "arms.urdf.xacro", select=("S909", "M107"))}
+    return {(one.code, one.line, one.message, one.help) for one in lint(folder / "arms.urdf.xacro", select=("S909", "M107"))}
 
 
 def line_of(text):
@@ -56,14 +56,15 @@ def test_mirrored_arms_have_no_finding(tmp_path):
 
 
 def test_a_side_that_the_call_repeats_is_reported_at_the_call(tmp_path):
-    ((code, line, message),) = found(tmp_path, 'reflect="-1"', 'reflect="1"')
+    ((code, line, message, help),) = found(tmp_path, 'reflect="-1"', 'reflect="1"')
     assert (code, line) == ("S909", line_of('side="right"'))
     assert "`left_shoulder` and `right_shoulder` have the same origin" in message
 
 
 def test_a_shape_that_is_not_mirrored_is_reported_in_the_macro(tmp_path):
-    ((code, line, message),) = found(tmp_path, '<origin xyz="0 ${reflect*0.1} 0"/>', '<origin xyz="0 0.1 0"/>')
+    ((code, line, message, help),) = found(tmp_path, '<origin xyz="0 ${reflect*0.1} 0"/>', '<origin xyz="0 0.1 0"/>')
     assert (code, line) == ("S909", line_of('<origin xyz="0 ${reflect*0.1} 0"/>'))
+    assert help == "check the sign of the offset"
     assert message == (
         "shapes of links `left_upper` and `right_upper` are not mirrored as the joints below are: y is 0.1 m for both"
     )
@@ -71,6 +72,7 @@ def test_a_shape_that_is_not_mirrored_is_reported_in_the_macro(tmp_path):
 
 @pytest.mark.parametrize("limits", ['lower="0" upper="2"'])
 def test_limits_with_the_wrong_sign_are_reported_once_and_not_in_the_states(tmp_path, limits):
-    ((code, line, message),) = found(tmp_path, 'lower="-2" upper="0"', limits, SRDF)
+    ((code, line, message, help),) = found(tmp_path, 'lower="-2" upper="0"', limits, SRDF)
     assert (code, line) == ("M107", line_of('lower="-2"'))
+    assert help == "check the signs of the limits"
     assert message == "the limits of joint `left_elbow` exclude all states of the SRDF (-1.2)"
