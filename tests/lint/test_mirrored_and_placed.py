@@ -44,7 +44,9 @@ def found(folder, old, new, srdf=""):
     (folder / "arms.urdf.xacro").write_text(ARMS.replace(old, new))
     if srdf:
         (folder / "arms.srdf").write_text(srdf)
-    return {(one.code, one.line, one.message, one.help) for one in lint(folder / "arms.urdf.xacro", select=("S909", "M107"))}
+    return {
+        (one.code, one.line, one.message, one.help) for one in lint(folder / "arms.urdf.xacro", select=("S909", "M107"))
+    }
 
 
 def line_of(text):
@@ -56,7 +58,7 @@ def test_mirrored_arms_have_no_finding(tmp_path):
 
 
 def test_a_side_that_the_call_repeats_is_reported_at_the_call(tmp_path):
-    ((code, line, message, help),) = found(tmp_path, 'reflect="-1"', 'reflect="1"')
+    ((code, line, message, _),) = found(tmp_path, 'reflect="-1"', 'reflect="1"')
     assert (code, line) == ("S909", line_of('side="right"'))
     assert "`left_shoulder` and `right_shoulder` have the same origin" in message
 

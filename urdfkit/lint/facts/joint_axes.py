@@ -39,14 +39,19 @@ def turning_joint_above(joint: Joint, model: Model) -> tuple[Joint, Frame] | Non
 def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
     """Yield each joint that turns about the same line as the moving joint that carries it: upper joint, lower joint.
 
-    A joint that carries several moving joints, such as the waist of a humanoid, has an effect of its own. Joints without
-    <origin> are not placed yet.
+    A joint that carries several moving joints, such as the waist of a humanoid, has an effect of its own. Joints
+    without <origin> are not placed yet.
     """
     carriers = [(joint, turning_joint_above(joint, model)) for joint in model.robot.joints if joint.is_movable]
     counts = Counter(above[0].name for _, above in carriers if above is not None)
     for joint, above in carriers:
         axis = unit(joint.axis)
-        if joint.type not in _TURNING or joint.mimic is not None or axis is None or joint.element.find("origin") is None:
+        if (
+            joint.type not in _TURNING
+            or joint.mimic is not None
+            or axis is None
+            or joint.element.find("origin") is None
+        ):
             continue
         if above is None or above[0].mimic is not None or counts[above[0].name] > 1:
             continue

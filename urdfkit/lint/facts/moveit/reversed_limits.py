@@ -1,4 +1,4 @@
-"""Limits of joints that exclude the positions of all states of the SRDF, although their opposites would include them."""
+"""Limits of joints that exclude all states of the SRDF, although limits with opposite signs would include them."""
 
 from __future__ import annotations
 
