@@ -16,7 +16,7 @@ _TURNING = ("revolute", "continuous")
 _PARALLEL = 0.99999
 """Smallest cosine of the angle between axes on one line."""
 
-_APART = 1e-4
+_DISTANCE = 1e-4
 """Largest distance between two axes on one line [m]."""
 
 
@@ -63,5 +63,5 @@ def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
         along = sum(a * b for a, b in zip(frame.translation, other, strict=True))
         nearest: Vector = (along * other[0], along * other[1], along * other[2])
         cosine = abs(sum(a * b for a, b in zip(turned, other, strict=True)))
-        if cosine > _PARALLEL and dist(nearest, frame.translation) < _APART:
+        if cosine > _PARALLEL and dist(nearest, frame.translation) < _DISTANCE:
             yield carrier, joint

@@ -81,16 +81,16 @@ class SrdfAdjacentPairMissing(RobotRule):
             # Other rules report a pair that names one link twice, or a link that does not exist.
             wrong = [each for each in disabled if len(each) < 2 or not each <= links]
             missing = [(joint, pair) for joint, pair in missing if not any(pair & each for each in wrong)]
-            apart = {
+            distant = {
                 each: element
                 for each, element in disabled.items()
                 if element.get("reason") == "Adjacent" and each <= links and len(each) == 2
                 if not each <= near_links(next(iter(each)), model)
             }
             for joint, pair in missing:
-                confused = next((each for each in apart if each & pair), None)
+                confused = next((each for each in distant if each & pair), None)
                 near = next((element for links, element in disabled.items() if links & pair), root)
-                near = apart[confused] if confused is not None else near
+                near = distant[confused] if confused is not None else near
                 message = (
                     f"links `{joint.parent}` and `{joint.child}` are adjacent, but their collisions are not disabled"
                 )
