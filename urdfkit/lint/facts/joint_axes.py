@@ -21,7 +21,7 @@ _DISTANCE = 1e-4
 
 
 def turning_joint_above(joint: Joint, model: Model) -> tuple[Joint, Frame] | None:
-    """Return the moving joint that carries a joint, and the frame of the joint in it; None without one that turns."""
+    """Return the moving joint that carries a joint, and the frame of the joint in it; None if it does not turn."""
     frame, parent = Frame().moved(joint.origin), joint.parent
     for _ in model.robot.joints:
         above = model.robot.parents_of.get(parent or "", [])
