@@ -308,8 +308,12 @@ def try_mutants(count: int = 200, seed: int = 0, folders: tuple[str, ...] = ("ur
                 noticed[package] += 1
                 failures.add(failure)
             else:
-                old = (ROOT / mutant.file).read_bytes()[mutant.start : mutant.end].decode()
-                print(f"{mutant.file}:{mutant.line}: `{old}` -> `{mutant.text}`")
+                source = (ROOT / mutant.file).read_bytes()
+                old, column = (
+                    source[mutant.start : mutant.end].decode(),
+                    mutant.start - source.rfind(b"\n", 0, mutant.start),
+                )
+                print(f"{mutant.file}:{mutant.line}:{column}: `{old}` -> `{mutant.text}`")
                 print(f"  not noticed by {len(chosen)} of {total} tests, {chosen[0]}", flush=True)
             if tried.total() % 20 == 0:
                 print(f"{noticed.total()} of {tried.total()}", flush=True)
