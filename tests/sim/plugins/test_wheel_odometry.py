@@ -1,4 +1,4 @@
-from math import cos, hypot, pi, sin, tan
+from math import atan, cos, hypot, pi, sin, tan
 
 import pytest
 from hypothesis import given
@@ -67,6 +67,19 @@ def test_the_bicycle_is_exact_at_any_rate(v: float, angle: float) -> None:
     assert odometry.heading == pytest.approx(w * 4.0, abs=1e-12)
     assert (odometry.x, odometry.y) == pytest.approx((x, y), abs=1e-5)
     assert odometry.moved[0] == pytest.approx(v / 2)
+
+
+@pytest.mark.parametrize("turn", [0.4, -0.4])
+def test_each_of_two_wheels_gives_the_bicycle_the_way_of_their_middle(turn: float) -> None:
+    base, track, way = 0.8, 0.6, 0.5  # the middle turns by 0.4 rad on 0.5 m
+    angle, odometry = atan(base * turn / way), BicycleOdometry(base, track)
+    right, left = way + turn * track / 2, way - turn * track / 2
+    assert odometry.middle((right, left), angle) == pytest.approx(way)
+    assert odometry.middle((right + 0.1, left), angle) == pytest.approx(way + 0.05 * way / right)
+    assert odometry.middle((way,), angle) == way
+    odometry.update(0.0, 7.0, 8.0, angle - 0.1)
+    odometry.update(1.0, 7.0 + right, 8.0 + left, angle + 0.1)
+    assert odometry.moved == pytest.approx((way, 0.0, turn))
 
 
 @given(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
