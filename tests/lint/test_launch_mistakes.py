@@ -75,7 +75,7 @@ def test_packages_of_navigation_date_the_release_that_has_no_spawner_py(tmp_path
         cart / "launch/spawn.launch.xml",
         '<launch>\n  <node pkg="controller_manager" exec="spawner.py" args="drive"/>\n</launch>\n',
     )
-    message = "package `controller_manager` has no executable `spawner.py` in this release of ROS 2; did you mean"
+    message = "package `controller_manager` has no executable `spawner.py` in this ROS 2 release; did you mean"
     reported = found(cart, "L103")
     assert len(reported) == is_reported
     assert all(text.startswith(message) for _, _, text in reported)

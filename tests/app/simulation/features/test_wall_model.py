@@ -76,7 +76,7 @@ def test_doors_touch_each_other_and_the_ends_of_their_wall() -> None:
     [
         ([(0, 0), (0, 0)], [], "a wall needs two different corners"),
         ([(0, 0), (0, 0.019)], [], "a wall needs two different corners"),
-        ([(0, 0), (1, 0)], [(1, 0.5, 0.5)], "a door is in wall 1; there are 1"),
+        ([(0, 0), (1, 0)], [(1, 0.5, 0.5)], "a door is in wall 1, but the last wall is 0"),
         ([(0, 0), (1, 0)], [(0, 0.76, 0.5)], "a door 0.5 m wide does not fit at 0.76 m into a wall of 1 m"),
         ([(0, 0), (1, 0)], [(0, 0.24, 0.5)], "a door 0.5 m wide does not fit at 0.24 m into a wall of 1 m"),
         ([(1, 1), (5, 1)], [(0, 1, 1), (0, 1.9, 1)], "two doors of wall 0 overlap"),

@@ -44,7 +44,7 @@ def walls(
     for door in doors:
         segment, at, width = int(door["segment"]), float(door["at"]), float(door["width"])
         if segment >= len(lengths):
-            raise SimulationError(f"a door is in wall {segment}, but there are {len(lengths)} walls")
+            raise SimulationError(f"a door is in wall {segment}, but the last wall is {len(lengths) - 1}")
         if not width / 2 <= at <= lengths[segment] - width / 2:
             raise SimulationError(
                 f"a door {width:g} m wide does not fit at {at:g} m into a wall of {lengths[segment]:.3g} m"
