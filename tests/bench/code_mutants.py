@@ -51,7 +51,7 @@ MOST_SECONDS = 20.0
 MOST_TESTS = 400
 TIME_LIMIT = 60
 """A mutant whose tests take more CPU time hangs and counts as noticed [s]."""
-WAITING_LIMIT = 600
+WAITING_LIMIT = 240
 """A mutant whose tests wait longer counts as noticed, too [s]."""
 MEMORY_LIMIT = 6 << 30
 """A mutant that needs more memory counts as noticed [bytes]."""

@@ -381,7 +381,10 @@ def test_the_odometry_transform_can_be_turned_off_since_kinetic(
 def test_joints_that_do_not_pair_up(write_rover: Callable[..., Path]) -> None:
     lonely = '<plugin name="d" filename="gz-sim-diff-drive-system"><left_joint>left_joint</left_joint></plugin>'
     path = write_rover(f"<gazebo>{lonely}</gazebo>")
-    with pytest.raises(SimulationError, match="1 <left_joint> and 0 <right_joint>; this drive needs as many of one"):
+    with pytest.raises(
+        SimulationError,
+        match="1 <left_joint> and 0 <right_joint>; this drive needs the same number of both, at least one",
+    ):
         Simulator(path, strict=True)
 
 
