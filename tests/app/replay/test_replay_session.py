@@ -125,3 +125,22 @@ def test_requests_jump_and_set_the_speed(replay: Replay) -> None:
     assert replay.after(1.0) == 1.5
     replay.request("replay", action="end")
     assert not session.running
+
+
+def test_the_page_gets_the_state_of_the_controls(replay: Replay, monkeypatch: pytest.MonkeyPatch) -> None:
+    sent: dict[str, dict[str, Any]] = {}
+    monkeypatch.setattr(replay.server, "broadcast", lambda name, **values: sent.update({name: values}))
+    replay.after(1.5)
+    replay.session.act("pause")
+    replay.session.report()
+    assert sent["recorder"] == {
+        "recording": False,
+        "topics": False,
+        "begin": 0.0,
+        "end": DURATION,
+        "frames": 5,
+        "playing": True,
+        "running": False,
+        "at": 1.5,
+        "file": "a",
+    }
