@@ -27,6 +27,9 @@ SOFT, SOFTEST, HARDEST = 5e-5, 3e-6, 1e-2
 """Penalties over the stiffness of a held row: of the first round, and the bounds of the others."""
 STEPS, TOTAL = 4, 60
 """Most steps of Newton's method in a round, and of all rounds beyond which no other begins."""
+LONG = 20
+"""Steps after which velocities that only come near the law are accepted: the convex problems come no nearer, in many
+more steps. Most islands take fewer steps."""
 MEMORY = 0.99
 """How much of the last step's impulses is started from."""
 SWEEPS = 5
@@ -233,6 +236,8 @@ def solve_augmented(w: KernelWorld, root: int, rows: int, n: int, tiny: float) -
             if balance == EXACT:
                 return rounds
             balance = EXACT
+        elif total > LONG and taken >= 0 and GAIN * before < off <= OFF:
+            break
         elif taken < 0:
             hardness = max(SOFTEST, SOFTER * hardness)
         elif hardness == HARDEST and off > max(NEAR, GAIN * before):
