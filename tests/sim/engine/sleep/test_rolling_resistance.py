@@ -60,3 +60,19 @@ def test_a_ball_that_is_pushed_against_a_box_rolls_as_without_resistance(engine_
     assert speeds[1] == pytest.approx(speeds[0], rel=1e-6)
     # It is pushed along its own axes, which turn a little.
     assert speeds[0] == pytest.approx(0.5 * 0.2 / 1.4, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("static", "turning", "resisted"), [(False, 0.5, True), (False, 0.7, False), (True, 0.5, False)]
+)
+def test_a_slow_smooth_box_that_turns_on_a_free_board_is_slowed_down_about_its_normal(
+    engine_of, static, turning, resisted
+):
+    board = slab("board", (2.0, 1.0, 0.025), (1.0, 0.5, 0.05), static=static)
+    engine = rover(engine_of, bodies=[cube("box", (2.0, 1.0, 0.15), mu=0.0), board])
+    body = engine.bodies["box"]
+    body.place(body.pose, (0.0, 0.0, 0.0, 0.0, 0.0, turning))
+    engine.step(100)
+    # 0.01·m·g·r, r half the diagonal, against m·a²/6: the corners must be slower than 0.1 m/s.
+    slower = 0.1 * 0.01 * 9.81 * 0.1 * np.sqrt(3.0) / (0.04 / 6.0) if resisted else 0.0
+    assert body.twist[5] == pytest.approx(turning - slower, abs=1e-3)

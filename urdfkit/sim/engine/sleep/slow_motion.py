@@ -25,8 +25,6 @@ rotation. Real contacts are patches, and their friction stops it: at a force of 
 of 1 kg and 0.12 m by 2 rad/s².
 """
 
-from typing import Any
-
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, add, cross, dot, load_vector, scale, store_vector
@@ -39,7 +37,7 @@ from urdfkit.sim.engine.simulation_memory import (
     SLOWEST,
     WINDOW,
 )
-from urdfkit.sim.engine.sleep.rolling_resistance import is_round
+from urdfkit.sim.engine.sleep.rolling_resistance import ROLLS_ON, is_round, point_speed
 from urdfkit.sim.engine.sleep.sleep_criteria import PATIENCE, QUIET
 
 SLOW = 2e-2
@@ -52,17 +50,8 @@ CREEP = 1e-3
 """Average speed [m/s] in a window above which a point of a body slides or glides on."""
 GROWTH = 2.0
 """Ratio of the greatest speeds in two windows above which a motion grows; those below `QUIET` count as `QUIET`."""
-ROLLS_ON = 0.1
-"""Speed [m/s] of a point of a round body that rolls without resistance: of a ball that rolls at 50 mm/s, the
-``sleepThreshold`` of Box2D 3."""
 EVEN = 1e-3
 """Difference [m/s] of the greatest and least speed in a window of a body that rolls evenly: of a ball, 1 mm/s²."""
-
-
-@inlined
-def point_speed(linear: Any, angular: Any, reach: float) -> float:
-    """Return the greatest speed of points of a body up to a distance from its origin."""
-    return float(dot(linear, linear) ** 0.5 + reach * dot(angular, angular) ** 0.5)
 
 
 @inlined
