@@ -369,6 +369,6 @@ def test_files_that_include_each_other_many_times_are_each_read_once(tmp_path):
         include = f'  <include file="$(find cart)/launch/{other}.launch"/>\n'
         node = '  <node pkg="amcl" type="amcl" name="amcl"/>\n'
         write(cart / f"launch/{own}.launch", f"<launch>\n{include * 80}{node}</launch>\n")
-    message = "`amcl` and `amcl` both publish the transform from the map to the odometry"
+    message = "`amcl` and `amcl` both publish the transform from the map frame to the odometry frame"
     expected = {(f"{own}.launch", line, message) for own in "ab" for line in range(3, 83)}
     assert set(found(cart, "L124")) == expected
