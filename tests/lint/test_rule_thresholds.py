@@ -113,9 +113,9 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     ("I503", link(inertial("1", "1 1 @")), {"2": "", "2.000000001": "", "2.000001": "note", "2.00019": "note"}),
     ("I503", link(inertial("1", "1 1 @")), {"2.00021": "warning", "2.001": "warning", "2.003": "error", "5": "error"}),
     # inertia-decimal-slip: the other moments within 1.7, the scaled one within 1.5, at most a factor of 1000
-    ("I506", slip(ixx="@"), {"0.081": "", "0.072": "warning", "0.028": "warning", "0.025": ""}),
+    ("I506", slip(ixx="@"), {"0.081": "", "0.072": "error", "0.028": "error", "0.025": ""}),
     ("I506", slip(izz="@"), {"0.007": "", "0.0063": "warning", "0.0032": "warning", "0.0028": ""}),
-    ("I506", slip(izz="@"), {"4.5e-5": "warning", "4.5e-6": "", "45": "warning", "450": "", "0.045": ""}),
+    ("I506", slip(izz="@"), {"4.5e-5": "warning", "4.5e-6": "", "45": "error", "450": "", "0.045": ""}),
     # inertia-vs-geometry-too-large: 1.2 times 1.732 m, without visuals three times
     ("I507", link(inertial("1", "1 1 @"), CUBE), {"4.31": "", "4.33": "warning"}),
     ("I507", link(inertial("1", "1 1 @"), box("2 2 2", "collision")), {"26.9": "", "27.1": "warning"}),

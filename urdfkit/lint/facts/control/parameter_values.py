@@ -128,7 +128,9 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         listed: set[str] = set()
         for item in value.items if key.text in ("joints", "left_wheel_names", "right_wheel_names") else ():
             if item.text and item.text in listed:
-                yield item, f"`{item.text}` occurs twice in `{key.text}`"
+                lacking = _without_entry(value, values.get("constraints"))
+                hint = f"; `{lacking}` is missing" if lacking else ""
+                yield item, f"`{item.text}` occurs twice in `{key.text}`" + hint
             listed.add(item.text)
     for left, right in _WHEELS:
         names = values[left].texts() if left in values and right in values else []
@@ -136,6 +138,13 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         for item in opposite:
             if item.text and item.text in names:
                 yield item, f"wheel `{item.text}` is in `{left}` and in `{right}`"
+
+
+def _without_entry(joints: Node, constraints: Node | None) -> str:
+    """Return the only name with tolerances that a list of joints lacks; empty if there is no such name."""
+    named = [key.text for key, value in constraints.entries if value.kind == "group"] if constraints is not None else []
+    lacking = [name for name in named if name not in joints.texts()]
+    return lacking[0] if len(lacking) == 1 else ""
 
 
 def _of_number(name: str, value: Node, is_ros2: bool) -> Defects:

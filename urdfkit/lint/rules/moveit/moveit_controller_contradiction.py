@@ -74,4 +74,4 @@ class MoveitControllerContradiction(RobotRule):
                     for node, message in contradictions(entry, started.get(name, []), model):
                         yield self.at_span(span_of(source, node), message, names=(node.text,))
         for span, message in unspawned(names, started, model):
-            yield self.at_span(span, message)
+            yield self.at_span(span, message, kind="unspawned")

@@ -122,7 +122,7 @@ class MoveitNameUndefined(RobotRule):
         longer = [path for path in paths if path.endswith(f"/{name}")]
         if name not in paths and "/" in name:
             yield from self._near(source, node, f"unknown controller `{name}`", name, paths)
-        if name in paths or not longer:
+        if name in paths or not longer or "ros__parameters" in longer[0]:  # ROS 2 has names of nodes there.
             return
         package, namespace = source.file.rpartition("/config/")[0], re.escape(longer[0].partition("/")[0])
         in_group = rf"<(?:group|include|node)\b[^<>]*\bns\s*=\s*[\"']/?(?:{namespace}\b|\$\(arg (?!robot_description))"

@@ -25,7 +25,7 @@ class MoveitSettingInvalid(RobotRule):
     - ``has_…_limits`` that is not a boolean, or is true without a limit
     - solver timeouts that are not positive, and default scaling factors above 1
     - Cartesian limits that are missing or have the wrong sign
-    - joints of a group that no controller moves
+    - joints of a group that no controller moves, and projections with joints of another group
 
     ## Why is this bad?
     MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails. A trajectory
@@ -63,6 +63,7 @@ class MoveitSettingInvalid(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
+        from urdfkit.lint.facts.moveit.group_joints import projection_defects
         from urdfkit.lint.facts.moveit.planning import incomplete_entries, planning_defects, uncontrolled_joints
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups
@@ -79,6 +80,7 @@ class MoveitSettingInvalid(RobotRule):
                 *incomplete_entries(source, is_ros2, has_manager),
                 *cartesian_limit_defects(source),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
+                *projection_defects(source, root, model.robot),
             ]
             for node, message in defects:
                 yield self.at_span(span_of(source, node), message)

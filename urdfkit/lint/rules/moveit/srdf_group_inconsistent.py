@@ -49,6 +49,7 @@ class SrdfGroupInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
+        from urdfkit.lint.facts.moveit.group_joints import repeated_groups
         from urdfkit.lint.facts.moveit.srdf import groups, joints_of, path_between, semantics_of, severity_for
 
         if model.is_incomplete:
@@ -64,6 +65,8 @@ class SrdfGroupInconsistent(RobotRule):
                 for below in group.find_all("group"):
                     if _contains(below.get("name") or "", name, by_name):
                         yield self.at(model, below, f"group `{name}` contains itself", attribute="name", severity=empty)
+            for group, message in repeated_groups(root, model.robot):
+                yield self.at(model, group.find("chain") or group, message, severity=severity)
             for joint in root.find_all("virtual_joint"):
                 child = joint.get("child_link") or ""
                 if root_link and child != root_link and child in model.robot.link_by_name:

@@ -108,6 +108,8 @@ class SrdfStateInvalid(RobotRule):
                 ]
                 unknown = [name for name in valued if name and name not in robot.joint_by_name]
                 missing = [name for name in missing if nearest(name, unknown, cutoff=0.7) is None]  # it is misspelt
+                if foreign and len(foreign) == len(values):
+                    continue  # The state is for another group.
                 if missing:
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
                     message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"

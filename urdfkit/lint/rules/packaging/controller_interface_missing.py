@@ -10,6 +10,9 @@ _REQUIRED_INTERFACES = {
 }
 """Package of a controller → interface that it requires of its joints (ros_controllers, Noetic)."""
 
+_OF_WHEELS = ("diff_drive_controller", "ackermann_steering_controller", "four_wheel_steering_controller")
+"""Packages whose controllers have no variant for another interface, so that the transmission is wrong."""
+
 
 class ControllerInterfaceMissing(RobotRule):
     """A ROS 1 controller requires an interface that the transmission of its joint does not provide.
@@ -50,6 +53,7 @@ class ControllerInterfaceMissing(RobotRule):
         from urdfkit.lint.facts.control.controller_joints import joints_of, typed
         from urdfkit.lint.facts.control.controller_settings import settings
         from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_misspelt
+        from urdfkit.lint.facts.root_cause import call_of
 
         if model.robot.ros2_control:
             return
@@ -86,8 +90,15 @@ class ControllerInterfaceMissing(RobotRule):
                 line = source.span(controller_type.start, controller_type.start).line
                 kinds = [(one.name, one.group.find("type")) for one in settings(source)]
                 others = ", ".join(f"`{name}`" for name in sorted(provided[missing[0]]))
+                call = None
+                if controller_type.name.partition("/")[0] in _OF_WHEELS:
+                    parts = [(each.name, each.element) for one in model.robot.transmissions for each in one.joints]
+                    right = [element for name, element in parts if name not in missing]
+                    elements = (element for name, element in parts if name == missing[0])
+                    call = next((place for each in elements if (place := call_of(each, right)) is not None), None)
+                where = source.span(controller_type.start, controller_type.start + len(controller_type.name))
                 yield self.at_span(
-                    source.span(controller_type.start, controller_type.start + len(controller_type.name)),
+                    where if call is None else model.span(call),
                     f"`{controller_type.name}` requires the {required} of joint `{missing[0]}`, "
                     f"whose transmission provides {others}",
                     joint=missing[0],

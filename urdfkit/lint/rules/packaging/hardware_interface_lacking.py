@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _BROADCASTERS = (
@@ -73,16 +75,48 @@ class HardwareInterfaceLacking(RobotRule):
         if not model.robot.ros2_control:
             return
         from urdfkit.lint.facts.control.hardware_interfaces import meant_joints
-        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered
+        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered, wanted
         from urdfkit.lint.facts.control.yaml_tree import yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text]
         hardware = offered(model) if sources else None
         misspelt = meant_joints(model.robot) if hardware is not None else set()
+        found: list[tuple[str, Finding]] = []
         for source in sources if hardware is not None else ():
             for controller in declared(source):
-                yield from self._missing_interfaces(source, controller, hardware or {}, misspelt, model)
+                missing = self._missing_interfaces(source, controller, hardware or {}, misspelt, model)
+                found += [(controller.name, finding) for finding in missing]
                 yield from self._unknown_sensor(source, controller, hardware or {})
+        every = [wish for source in sources for one in declared(source) for wish in wanted(one)] if found else []
+        yield from self._merged(found, {(wish.joint, wish.interface, wish.is_command) for wish in every}, model)
+
+    def _merged(self, found: list[tuple[str, Finding]], wanted: set[tuple[str, str, bool]], model: Model) -> Findings:
+        """Yield the findings; those of several controllers at the one interface that no controller uses in its place."""
+        parts = {
+            part.get("name"): part for block in model.robot.ros2_control for part in block.element.find_all("joint")
+        }
+        unused: dict[object, list[tuple[str, Finding, Element]]] = {}
+        for controller, finding in found:
+            part = parts.get(finding.joint) if finding.kind.endswith("_interface") else None
+            names = [(finding.joint or "", finding.kind == "command_interface")]
+            others = [
+                each
+                for each in (part.find_all(finding.kind) if part is not None else ())
+                if (names[0][0], each.get("name") or "", names[0][1]) not in wanted
+            ]
+            if len(others) == 1:
+                unused.setdefault(others[0].origin.position, []).append((controller, finding, others[0]))
+        merged: set[int] = set()
+        for uses in unused.values():
+            if len({controller for controller, _, _ in uses}) > 1:
+                merged |= {id(finding) for _, finding, _ in uses}
+                _, finding, element = uses[0]
+                names = tuple(each.joint for _, each, _ in uses if each.joint)
+                help = "the controllers use another interface"
+                yield self.at(
+                    model, element, finding.message, attribute="name", joint=finding.joint, help=help, names=names
+                )
+        yield from (finding for _, finding in found if id(finding) not in merged)
 
     def _unknown_sensor(
         self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]]
@@ -149,6 +183,7 @@ class HardwareInterfaceLacking(RobotRule):
                 help = f'add <{tag} name="{requirement.interface}"/> to the hardware, or change the controller'
                 help = help if near is None else f"write `{near}`"
             reported.add(position)
-            span, kind = span_of(source, requirement.where), "joint" if interfaces is None else "interface"
+            side = "command_interface" if requirement.is_command else "state_interface"
+            span, kind = span_of(source, requirement.where), "joint" if interfaces is None else side
             joint = requirement.joint
             yield self.at_span(span, message, joint=joint, help=help, kind=kind)

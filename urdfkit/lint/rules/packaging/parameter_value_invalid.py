@@ -124,7 +124,9 @@ class ParameterValueInvalid(RobotRule):
                 seen.add((node.line, node.column))
                 in_controllers = value_defects(node, PARAMETERS in source.text) if is_of_controllers else ()
                 for place, message in (*_in_any(node, source.file in of_moveit), *in_controllers):
-                    yield self.at_span(span_of(source, place), message)
+                    lacking = tuple(re.findall(r"`([\w/.-]+)` is missing$", str(message)))
+                    kind = "twice" if lacking else ""
+                    yield self.at_span(span_of(source, place), message, names=lacking, kind=kind)
             if is_of_controllers:
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
                 for place, message in incomplete:

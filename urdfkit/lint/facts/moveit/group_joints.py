@@ -1,0 +1,54 @@
+"""Joints of the groups of an SRDF, compared with the projections of planners and with the names of the groups.
+
+Source: moveit_planners/ompl, model_based_planning_context.cpp (a projection reads joints of the group).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import Node, documents
+from urdfkit.lint.facts.moveit.settings import unwrapped
+from urdfkit.lint.facts.moveit.srdf import groups, joints_of
+
+
+def projection_defects(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:
+    """Yield the projections of groups with joints that the groups do not contain."""
+    defined = groups(root)
+    for group, settings in (entry for each in documents(source)[0] for top in unwrapped(each) for entry in top.entries):
+        node = settings.find("projection_evaluator") if group.text in defined else None
+        written = re.fullmatch(r"joints\(([\w\s,./-]+)\)", node.text.strip()) if node is not None else None
+        members = joints_of(group.text, root, robot) if written is not None else None
+        names = [name.strip() for name in written[1].split(",")] if written is not None and members else []
+        foreign = [name for name in names if name in robot.joint_by_name and name not in (members or ())]
+        if node is not None and foreign:
+            yield node, f"joint `{foreign[0]}` of `projection_evaluator` is not in group `{group.text}`"
+
+
+def repeated_groups(root: Element, robot: Robot) -> Iterator[tuple[Element, str]]:
+    """Yield the groups with the joints of another group, named after a third group of which they have no joint.
+
+    ``left_arm_torso`` without the joints of ``torso`` repeats ``left_arm``.
+    """
+    defined = groups(root)
+    joints = {name: joints_of(name, root, robot) for name in defined}
+    for name, group in defined.items():
+        own = _moving(joints[name], robot)
+        equal = [other for other in defined if other != name and own and _moving(joints[other], robot) == own]
+        named = [
+            other
+            for other in defined
+            if other != name and other not in equal and re.search(rf"(?:^|_){re.escape(other)}(?:_|$)", name)
+        ]
+        lacking = [other for other in named if (each := _moving(joints[other], robot)) and not each & own]
+        if lacking and any(re.search(rf"(?:^|_){re.escape(other)}(?:_|$)", name) for other in equal):
+            yield group, f"group `{name}` has the joints of `{equal[0]}` only, and none of group `{lacking[0]}`"
+
+
+def _moving(names: set[str] | None, robot: Robot) -> frozenset[str]:
+    joints = [robot.joint_by_name[name] for name in names or () if name in robot.joint_by_name]
+    return frozenset(joint.name for joint in joints if joint.is_movable and joint.mimic is None)
