@@ -1,0 +1,64 @@
+"""Interfaces that the hardware lacks for several controllers are reported at the hardware, once."""
+
+from __future__ import annotations
+
+from urdfkit.lint import lint
+
+MANIFEST = """<package format="3"><name>arm</name><version>1.0.0</version><description>An arm.</description>
+  <maintainer email="test@example.org">tester</maintainer><license>MIT</license>
+  <export><build_type>ament_cmake</build_type></export></package>"""
+JOINT = """  <link name="lN"/>
+  <joint name="jN" type="revolute"><parent link="lM"/><child link="lN"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="5" velocity="1"/></joint>
+"""
+ROBOT = f"""<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="driven" params="name">
+    <joint name="${{name}}">
+      <command_interface name="position"/>
+      <state_interface name="position"/>
+      <state_interface name="velocity"/>
+    </joint>
+  </xacro:macro>
+  <link name="l0"/>
+{"".join(JOINT.replace("N", str(n)).replace("M", str(n - 1)) for n in (1, 2))}
+  <ros2_control name="arm" type="system">
+    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    <xacro:driven name="j1"/>
+    <xacro:driven name="j2"/>
+  </ros2_control>
+</robot>"""
+SETTINGS = """NAME:
+  ros__parameters:
+    joints: [JOINT]
+    command_interfaces: [position]
+    state_interfaces: [position, velocity]
+"""
+KIND = "      type: joint_trajectory_controller/JointTrajectoryController\n"
+
+
+def found(folder, robot, names):
+    (folder / "config").mkdir()
+    manager = "controller_manager:\n  ros__parameters:\n" + "".join(f"    {name}:\n{KIND}" for name in names)
+    sections = "".join(SETTINGS.replace("NAME", name).replace("JOINT", f"j{n}") for n, name in enumerate(names, 1))
+    for name, text in {
+        "package.xml": MANIFEST,
+        "arm.urdf.xacro": robot,
+        "config/controllers.yaml": manager + sections,
+    }.items():
+        (folder / name).write_text(text)
+    findings = lint(folder, select=("K965",))
+    return [(one.file.rpartition("/")[2], one.line, one.help) for one in findings]
+
+
+def test_hardware_with_the_interfaces_of_its_controllers_has_no_finding(tmp_path):
+    assert found(tmp_path, ROBOT, ["first", "second"]) == []
+
+
+def test_an_interface_in_place_of_that_of_two_controllers_is_reported_at_the_hardware(tmp_path):
+    findings = found(tmp_path, ROBOT.replace('name="velocity"', 'name="effort"'), ["first", "second"])
+    assert findings == [("arm.urdf.xacro", 6, "the controllers use another interface")]
+
+
+def test_an_interface_that_one_controller_misses_is_reported_at_the_controller(tmp_path):
+    ((file, _, _),) = found(tmp_path, ROBOT.replace('name="velocity"', 'name="effort"'), ["first"])
+    assert file == "controllers.yaml"
