@@ -91,7 +91,7 @@ class HardwareInterfaceLacking(RobotRule):
         yield from self._merged(found, {(wish.joint, wish.interface, wish.is_command) for wish in every}, model)
 
     def _merged(self, found: list[tuple[str, Finding]], wanted: set[tuple[str, str, bool]], model: Model) -> Findings:
-        """Yield the findings; those of several controllers at the one interface that no controller uses in its place."""
+        """Yield the findings; those of several controllers at the only interface that no controller uses."""
         parts = {
             part.get("name"): part for block in model.robot.ros2_control for part in block.element.find_all("joint")
         }
