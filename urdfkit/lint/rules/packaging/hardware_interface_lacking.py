@@ -87,8 +87,8 @@ class HardwareInterfaceLacking(RobotRule):
                 missing = self._missing_interfaces(source, controller, hardware or {}, misspelt, model)
                 found += [(controller.name, finding) for finding in missing]
                 yield from self._unknown_sensor(source, controller, hardware or {})
-        every = [wish for source in sources for one in declared(source) for wish in wanted(one)] if found else []
-        yield from self._merged(found, {(wish.joint, wish.interface, wish.is_command) for wish in every}, model)
+        every = [need for source in sources for one in declared(source) for need in wanted(one)] if found else []
+        yield from self._merged(found, {(need.joint, need.interface, need.is_command) for need in every}, model)
 
     def _merged(self, found: list[tuple[str, Finding]], wanted: set[tuple[str, str, bool]], model: Model) -> Findings:
         """Yield the findings; those of several controllers at the only interface that no controller uses."""
