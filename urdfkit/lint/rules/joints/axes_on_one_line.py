@@ -74,7 +74,7 @@ class AxesOnOneLine(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that repeats the motion of a neighbour."""
-        from urdfkit.lint.facts.joint_axes import on_one_line
+        from urdfkit.lint.facts.placement.joint_axes import on_one_line
 
         if model.is_incomplete:
             return

@@ -114,7 +114,7 @@ class JointOffItsParent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the only joint that is not at the surface of its parent link."""
-        from urdfkit.lint.facts.joint_places import misplaced
+        from urdfkit.lint.facts.placement.joint_places import misplaced
 
         if model.is_incomplete:
             return

@@ -85,7 +85,7 @@ class ToolFrameInsideBody(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each frame and camera, at the origin of its joint."""
-        from urdfkit.lint.facts.tools import cameras_looking_back, tools_inside
+        from urdfkit.lint.facts.placement.tools import cameras_looking_back, tools_inside
 
         if model.is_damaged:
             return

@@ -6,7 +6,7 @@ from math import dist, hypot, inf
 
 from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.mirrored_shapes import unmirrored_shapes
+from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
 from urdfkit.lint.facts.root_cause import shared_argument
 from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, twins
 from urdfkit.lint.model.placement import shapes_of
