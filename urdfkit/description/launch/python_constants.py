@@ -81,6 +81,11 @@ class LaunchReader:
             return node.value if isinstance(node.value, str) else None
         if isinstance(node, ast.Name) and depth < 8 and (value := self.assigned.get(node.id)) is not None:
             return self.text(value, depth + 1)
+        if isinstance(node, ast.JoinedStr) and depth < 8:
+            pieces = [each.value if isinstance(each, ast.FormattedValue) else each for each in node.values]
+            is_plain = all(not isinstance(each, ast.FormattedValue) or _is_plain(each) for each in node.values)
+            texts = [self.text(each, depth + 1) for each in pieces] if is_plain else [None]
+            return "".join(text for text in texts if text is not None) if None not in texts else None
         return None
 
     def share(self, node: ast.expr) -> str | None:
@@ -134,3 +139,8 @@ class LaunchReader:
 def name_of(node: ast.expr) -> str:
     """Return the last part of a dotted name; empty for other expressions."""
     return str(getattr(node, "attr", getattr(node, "id", "")))
+
+
+def _is_plain(value: ast.FormattedValue) -> bool:
+    """Return whether an f-string inserts a text as it is."""
+    return value.conversion in (-1, 115) and value.format_spec is None

@@ -73,7 +73,7 @@ def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
 
 
 @lru_cache(maxsize=400)
-def _roots(source: Source) -> tuple[LaunchAction, ...]:
+def roots_of(source: Source) -> tuple[LaunchAction, ...]:
     """Return the outermost elements of an XML or YAML launch file; empty if they are nested too deeply."""
     try:
         return _elements(source)
@@ -83,7 +83,7 @@ def _roots(source: Source) -> tuple[LaunchAction, ...]:
 
 def all_elements(source: Source) -> Iterator[LaunchAction]:
     """Yield the elements of an XML or YAML launch file with those inside them, in document order."""
-    waiting = list(reversed(_roots(source)))
+    waiting = list(reversed(roots_of(source)))
     while waiting:
         element = waiting.pop()
         yield element

@@ -36,6 +36,8 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             found = _of_call(node, kind, reader)
         elif isinstance(node, (ast.Compare, ast.If, ast.IfExp)):
             found = _compared(node, reader)
+        elif isinstance(node, ast.Call) and name_of(node.func) == "bool" and len(node.args) == 1:
+            found = _truth(node, node.args[0], reader)
         else:
             continue
         yield from ((place(source, at), message) for at, message in found)
@@ -67,6 +69,8 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         text = reader.text(call.args[0]) or ""
         if text.strip().lower() not in _TRUTH:
             yield call.args[0], f'`{text}` is neither true nor false; write `LaunchConfiguration("{text}")`'
+    elif kind in _SOURCES and call.args:
+        yield from _other_format(call, kind, reader)
     elif kind in _NODES:
         yield from _node(words, kind, reader)
     elif kind in ("TimerAction", "GroupAction"):
@@ -115,6 +119,53 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
         yield remappings, 'an item of `remappings` is a string; write pairs, [("from", "to")]'
 
 
+def _never_equal(node: ast.Compare, reader: LaunchReader) -> Defects:
+    """Yield a comparison of the text of a launch argument with a truth value of Python, or of lower with upper case."""
+    for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
+        value = _value(one, reader)
+        is_lower = isinstance(value, ast.Call) and name_of(value.func) == "lower"
+        if is_lower and (text := _constant(other)) is not None and text != text.lower():
+            yield node, f"a text in lower case is never `{text}`; write `{text.lower()}`"
+        elif _performed(one, reader) and isinstance(other, ast.Constant) and isinstance(other.value, bool):
+            yield node, f'this compares a text with {other.value}; compare it with "{str(other.value).lower()}"'
+
+
+def _performed(node: ast.expr, reader: LaunchReader) -> bool:
+    """Return whether an expression is the text of a launch argument, ``LaunchConfiguration(...).perform(context)``."""
+    value = _value(node, reader)
+    is_call = isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute) and value.func.attr == "perform"
+    return is_call and _called(value.func.value, reader) == "LaunchConfiguration"
+
+
+def _truth(node: ast.expr, value: ast.expr, reader: LaunchReader) -> Defects:
+    """Yield an expression that takes the text of a launch argument as a truth value."""
+    if _performed(value, reader):
+        yield node, 'this text is true unless it is empty, also `false`; compare it, such as `.lower() == "true"`'
+    elif _called(value, reader) == "LaunchConfiguration":
+        yield node, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"
+
+
+_SOURCES = {
+    "PythonLaunchDescriptionSource": ((".xml", ".yaml", ".yml", ".launch"), "AnyLaunchDescriptionSource"),
+    "XMLLaunchDescriptionSource": ((".py", ".yaml", ".yml"), "AnyLaunchDescriptionSource"),
+    "YAMLLaunchDescriptionSource": ((".py", ".xml", ".launch"), "AnyLaunchDescriptionSource"),
+}
+"""Class that loads a launch file of one format → endings of other formats, and the class that loads each."""
+
+
+def _other_format(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
+    """Yield the path of a launch file in another format than its class loads."""
+    endings, right = _SOURCES[kind]
+    texts = [text for node in ast.walk(_value(call.args[0], reader)) if (text := _constant(node)) is not None]
+    if texts and texts[-1].endswith(endings):
+        name = texts[-1].rpartition("/")[2]
+        yield call.func, f"`{kind}` cannot load `{name}`, which has another format; use `{right}`"
+
+
+def _constant(node: ast.AST) -> str | None:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else None
+
+
 def _compared(node: ast.Compare | ast.If | ast.IfExp, reader: LaunchReader) -> Defects:
     """Yield the uses of a ``LaunchConfiguration`` as a value of Python, which are always true or always false."""
     if isinstance(node, ast.Compare):
@@ -124,5 +175,6 @@ def _compared(node: ast.Compare | ast.If | ast.IfExp, reader: LaunchReader) -> D
             if use is not None:
                 message = "this comparison reads the object and not its value; use `EqualsSubstitution` in a condition"
                 yield node, message
+            yield from _never_equal(node, reader)
     elif _called(node.test, reader) == "LaunchConfiguration":
         yield node.test, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"

@@ -18,6 +18,7 @@ from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.navigation.tables import NODES
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.facts.topics.node_topics import topics_of
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import code_texts
 
@@ -140,7 +141,9 @@ def _has_one_node(node: LaunchedNode, other: str, model: Model) -> bool:
     """Return whether the process of a node has no node of another name, which the code of a package would quote."""
     folder = neighbours(model.package).get(node.package) if model.package is not None else None
     if folder is None:
-        return node.package in released() and node.package not in _SEVERAL
+        return (
+            node.package in released() or topics_of(node.package, node.program) is not None
+        ) and node.package not in _SEVERAL
     model.expanded.packages.watch(folder)
     texts = [text for _, text in code_texts(folder, CODE, LAUNCH)]
     pattern = rf"[\"'/]{re.escape(other)}[\"']"
@@ -182,7 +185,12 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
             if not any(_lists_more(other) for other in others):
                 unlisted = list(_unlisted(source, names_listed, elsewhere, nodes))
         unknown: list[tuple[str, Span]] = []
+        manages_slam = re.search(r"use_lifecycle_manager|LifecycleNode", source.text) is not None
         for name, span in listed:
+            if name == "slam_toolbox" and not manages_slam:
+                message = "`slam_toolbox` activates itself, unless `use_lifecycle_manager` is true; remove it here"
+                yield source, span, message
+                continue
             near = next((each for each in sorted(started - names_listed) if _is_meant(each, name)), None)
             if name not in started | _RELEASED_NAMES and near is not None:
                 yield source, span, f"no node is called `{name}`" + Suggestion(near, name)

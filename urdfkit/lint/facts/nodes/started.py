@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
@@ -12,7 +13,8 @@ from urdfkit.description.packages.related_files import LAUNCH, neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements, share_of
+from urdfkit.lint.facts.launch.actions import LaunchAction, launch_files, roots_of, share_of
+from urdfkit.lint.facts.nodes.namespaces import PUSHED, LaunchPlace, included_in_namespace, inside
 from urdfkit.lint.facts.nodes.python_bindings import Binding, bindings, resolved
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -21,6 +23,7 @@ _WRAPPERS = ("ParameterFile", "RewrittenYaml", "ReplaceString")
 """Classes that return a changed copy of a parameter file (launch_ros, nav2_common)."""
 
 _DECLARATIONS = ("DeclareLaunchArgument", "DeclareBooleanLaunchArg")
+_BRANCHES = (ast.If, ast.IfExp)
 _ARGUMENT = r"\$\((?:var|arg)\s+([\w.-]+)\s*\)"
 
 
@@ -39,6 +42,9 @@ class LaunchedNode:
         place: first and last offset of its executable.
         inline: names of its parameters outside of files; None if there can be others.
         has_more_remappings: whether there can be more remappings, with computed names.
+        namespace: its namespace in the launch file without slashes at its ends; None if it is computed.
+        spaced_by: the innermost attribute that sets the namespace.
+        is_conditional: whether the launch file starts it under a condition only.
     """
 
     source: Source
@@ -51,6 +57,9 @@ class LaunchedNode:
     place: tuple[int, int] | None = None
     inline: frozenset[str] | None = None
     has_more_remappings: bool = False
+    namespace: str | None = ""
+    spaced_by: Named | None = None
+    is_conditional: bool = False
 
 
 def launched_nodes(model: Model) -> list[LaunchedNode]:
@@ -59,7 +68,8 @@ def launched_nodes(model: Model) -> list[LaunchedNode]:
     for file, source in model.related_files.items():
         if file.endswith(LAUNCH):
             found += _in_python(source) if file.endswith(".py") else _in_elements(source)
-    return found
+    moved = {name for file in launch_files(model) for name in included_in_namespace(file)}
+    return [replace(node, namespace=None) if Path(node.source.file).name in moved else node for node in found]
 
 
 def parameter_files(model: Model) -> dict[tuple[str, str], Source]:
@@ -79,15 +89,19 @@ def parameter_files(model: Model) -> dict[tuple[str, str], Source]:
 
 def _in_elements(source: Source) -> Iterator[LaunchedNode]:
     defaults: dict[str, str] = {}
-    for element in all_elements(source):
+    waiting = [(element, LaunchPlace()) for element in reversed(roots_of(source))]
+    while waiting:
+        element, place = waiting.pop()
         at = element.attributes
         if element.tag == "arg" and "name" in at and (default := at.get("default") or at.get("value")) is not None:
             defaults.setdefault(at["name"].name, default.name)
+        place = inside(place, element)
         if element.tag in ("node", "lifecycle_node"):
-            yield _node(source, element, defaults)
+            yield _node(source, element, defaults, place)
+        waiting += [(child, place) for child in reversed(element.children)]
 
 
-def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> LaunchedNode:
+def _node(source: Source, element: LaunchAction, defaults: dict[str, str], place: LaunchPlace) -> LaunchedNode:
     at = element.attributes
     program = at.get("exec") or at.get("type")
     name = at.get("name")
@@ -95,8 +109,10 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> La
     inner = [child.attributes["name"].name for child in element.children if "name" in child.attributes]
     for child in element.children:
         parts = child.attributes
-        if child.tag == "param" and "from" in parts:
-            text = re.sub(rf"^\s*{_ARGUMENT}\s*$", lambda use: defaults.get(use[1], use[0]), parts["from"].name)
+        file = parts.get("from" if child.tag == "param" else "file")
+        is_loaded = "ns" not in parts and ("command" not in parts or parts["command"].name == "load")
+        if file is not None and (child.tag == "param" or (child.tag == "rosparam" and is_loaded)):
+            text = re.sub(rf"^\s*{_ARGUMENT}\s*$", lambda use: defaults.get(use[1], use[0]), file.name)
             files.append(share_of(text))
         elif child.tag == "remap" and "from" in parts and "to" in parts:
             remappings.append((parts["from"], parts["to"]))
@@ -110,6 +126,10 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> La
         tuple(remappings),
         (program.start, program.start + len(program.name)) if program is not None else None,
         frozenset(inner) if all(file[0] for file in files) else None,
+        False,
+        place.namespace,
+        place.spaced_by,
+        place.is_conditional,
     )
 
 
@@ -119,10 +139,13 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
         return
     reader = launch_reader(tree)
     defaults = dict(_defaults(tree, reader))
+    branches = {inner for node in ast.walk(tree) if isinstance(node, _BRANCHES) for inner in ast.walk(node)}
+    moved = None if re.search(PUSHED, source.text) else ""
     for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call)):
         if name_of(call.func) not in ("Node", "LifecycleNode"):
             continue
         words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+        space = reader.text(words["namespace"]) if "namespace" in words else moved
         for binding in bindings(tree, call):
             values = {key: resolved(value, binding) for key, value in words.items()}
             texts = {key: reader.text(value) if value is not None else None for key, value in values.items()}
@@ -144,6 +167,9 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 place(source, words["executable"]) if "executable" in words else None,
                 _inline(call, items, binding, reader, files),
                 any(word.arg is None for word in call.keywords) or _has_more(values.get("remappings"), len(remappings)),
+                space.strip("/") if space is not None else None,
+                None,
+                "condition" in words or call in branches,
             )
 
 
@@ -202,6 +228,8 @@ def _literal(source: Source, node: ast.expr, reader: LaunchReader) -> Named | No
     for _ in range(4):
         if isinstance(node, ast.Name):
             node = reader.assigned.get(node.id) or node
+    if isinstance(node, ast.JoinedStr) and (text := reader.text(node)):
+        return Named(text, place(source, node)[0])
     if not isinstance(node, ast.Constant) or not isinstance(node.value, str) or not node.value:
         return None
     start, end = place(source, node)

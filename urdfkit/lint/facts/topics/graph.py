@@ -1,8 +1,8 @@
 """The topics that the nodes, plugins, controllers and bridges of a workspace publish, after remapping.
 
-Sources: gazebo_ros_pkgs (noetic-devel and ros2: gazebo_plugins/src), robot_localization (ros_filter.cpp,
-navsat_transform.cpp), ros2_controllers (diff_drive_controller.cpp, steering_controllers_library.cpp,
-tricycle_controller.cpp). The packages in `_WITHOUT_SENSORS` and the topics of `_DRIVERS` are not compared with sources.
+Sources: gazebo_ros_pkgs (noetic-devel and ros2: gazebo_plugins/src), ros2_controllers (diff_drive_controller.cpp,
+steering_controllers_library.cpp, tricycle_controller.cpp). The packages in `_WITHOUT_SENSORS` are not compared with
+sources.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from urdfkit.lint.facts.gazebo.sensor_topics import depth_clouds, published
 from urdfkit.lint.facts.launch.actions import launch_files
 from urdfkit.lint.facts.launch.receivers import receiver
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.topics.node_topics import CAMERAS, may_publish, topics_of
 from urdfkit.lint.facts.topics.own_nodes import own_publications
 from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.model.model import Model
@@ -30,15 +31,6 @@ _CONTROLLERS = (
 )
 """Pattern of the type of a controller → its topic and the type of the messages."""
 
-_NODES = {
-    "ekf_node": (("odometry/filtered", "Odometry"),),
-    "ukf_node": (("odometry/filtered", "Odometry"),),
-    "ekf_localization_node": (("odometry/filtered", "Odometry"),),
-    "ukf_localization_node": (("odometry/filtered", "Odometry"),),
-    "navsat_transform_node": (("odometry/gps", "Odometry"), ("gps/filtered", "NavSatFix")),
-}
-"""Program of robot_localization → topics and types of their messages."""
-
 _WITHOUT_SENSORS = """
 controller_manager gazebo_ros image_proc image_transport joint_state_publisher joint_state_publisher_gui joy joy_linux
 joy_teleop map_server move_base moveit_ros_move_group moveit_servo nav2_amcl nav2_behaviors nav2_bt_navigator
@@ -48,20 +40,7 @@ robot_state_publisher ros_gz_bridge ros_gz_image ros_gz_sim ros_ign_bridge ros_i
 rqt_gui rqt_image_view rqt_robot_steering rviz rviz2 slam_toolbox teleop_twist_joy teleop_twist_keyboard tf tf2_ros
 twist_mux explore_lite gmapping hector_mapping slam_gmapping
 """
-"""Packages whose nodes publish no sensor messages and no odometry but that of `_NODES`."""
-
-_DRIVERS = {
-    **dict.fromkeys(
-        ("rplidar_ros", "sllidar_ros", "urg_node", "urg_node2", "ydlidar_ros2_driver", "pointcloud_to_laserscan"),
-        (("scan", "LaserScan"),),
-    ),
-    "depthimage_to_laserscan": (("scan", "LaserScan"),),
-    "usb_cam": (("image_raw", "Image"),),
-    "v4l2_camera": (("image_raw", "Image"),),
-    "nmea_navsat_driver": (("fix", "NavSatFix"),),
-    "imu_filter_madgwick": (("imu/data", "Imu"),),
-}
-"""Package → topics of its nodes and the types of the messages; other nodes may publish anything."""
+"""Packages whose nodes publish no sensor messages and no odometry but those of `node_topics`."""
 
 _INCLUDED = ("nav2_bringup", "slam_toolbox", "gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
 _NAMESPACES = r"namespace\s*=|PushRos\w*Namespace|push[-_]ros[-_]namespace|<group\b[^<>]*\bns\s*=|<node\b[^<>]*\bns\s*="
@@ -76,13 +55,15 @@ def published_by_type(model: Model, of_sensors_only: bool = False) -> dict[str, 
     return found
 
 
-def is_closed(model: Model) -> bool:
-    """Return whether the launch files start nodes only whose sensor messages and odometry are known."""
-    names = {*_WITHOUT_SENSORS.split(), *_DRIVERS}
+def is_closed(model: Model, type: str) -> bool:
+    """Return whether the launch files start only nodes of which the topics with messages of a type are known."""
+    names = set(_WITHOUT_SENSORS.split())
     nodes = launched_nodes(model)
+    open_nodes = [node for node in nodes if topics_of(node.package, node.program) is None]
     calls = [call for file in launch_files(model) for call in file.includes]
     is_listed = all(receiver(call, model) is not None or call.package in _INCLUDED for call in calls)
-    others = {node.package for node in nodes} - names
+    cameras = {package for package in CAMERAS if not may_publish(package, type)}
+    others = {node.package for node in open_nodes} - names - cameras
     are_readable = all(own_publications(model, package) is not None for package in sorted(others))
     return bool(nodes or calls) and is_listed and are_readable
 
@@ -153,7 +134,8 @@ def _of_nodes(model: Model) -> Iterator[tuple[str, str]]:
                 if one.kind and re.search(pattern, one.kind):
                     yield f"{one.name}/{topic}", kind
     for node in launched_nodes(model):
-        own = _NODES.get(node.program, ()) if node.package == "robot_localization" else _DRIVERS.get(node.package, ())
-        is_listed = own or node.package in _WITHOUT_SENSORS.split()
-        for topic, kind in own if is_listed else own_publications(model, node.package) or ():
+        known = topics_of(node.package, node.program)
+        is_listed = known is not None or node.package in _WITHOUT_SENSORS.split()
+        listed = tuple(known.published.items()) if known is not None else ()
+        for topic, kind in listed if is_listed else own_publications(model, node.package) or ():
             yield remapped(node, topic), kind

@@ -20,6 +20,7 @@ from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.topics.graph import published_by_type, remapped
 from urdfkit.lint.facts.topics.misspelt import mentions
 from urdfkit.lint.facts.topics.robot_topics import last
+from urdfkit.lint.facts.topics.velocity_commands import drive_command_topics
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -132,13 +133,17 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
     named: dict[str, list[tuple[Source, Node]]] = {}
     publishers: list[_End] = []
     readers: list[_End] = []
+    drives = drive_command_topics(model)
     for source in yamls(model):
         for key, group in sections(source):
             named.setdefault(key.text.strip("/").rpartition("/")[2], []).append((source, group))
         for one in declared(source):
             if "diff_drive" in one.kind.text:
-                readers.append(_End(f"{one.name}/cmd_vel", True, one.name))
-                readers.append(_End(f"{one.name}/cmd_vel_unstamped", False, one.name))
+                ends = (
+                    _End(f"{one.name}/cmd_vel", True, one.name),
+                    _End(f"{one.name}/cmd_vel_unstamped", False, one.name),
+                )
+                readers += [end for end in ends if end.topic in drives]
     for topic, kind, is_read in bridged_topics(model):
         if is_read and last(kind) in ("Twist", "TwistStamped"):
             readers.append(_End(topic, last(kind) == "TwistStamped", "parameter_bridge"))

@@ -20,7 +20,9 @@ from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.ros_packages import is_slip
-from urdfkit.lint.facts.topics.graph import has_namespaces, is_closed, published_by_type
+from urdfkit.lint.facts.topics.graph import has_namespaces, is_closed, published_by_type, remapped
+from urdfkit.lint.facts.topics.loops import published_together, swapped_types
+from urdfkit.lint.facts.topics.node_topics import topics_of
 from urdfkit.lint.facts.topics.robot_topics import BRIDGE_KEYS, RobotTopics, last, robot_topics
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
@@ -51,15 +53,6 @@ _TYPES = {
     "image_topic": "Image",
 }
 """Parameter without its number → type of the messages that the node reads."""
-
-_SCAN, _CLOUD = {"scan": "LaserScan"}, {"cloud_in": "PointCloud2"}
-_INPUTS = {
-    **dict.fromkeys(("amcl", "gmapping", "nav2_amcl", "slam_toolbox"), _SCAN),
-    **dict.fromkeys(("octomap_server", "pointcloud_to_laserscan"), _CLOUD),
-    "nav2_velocity_smoother": {"odom": "Odometry"},
-    "robot_localization": {"imu": "Imu"},
-}
-"""Package → topics that its nodes read and the types of the messages, under the names that launch files remap."""
 
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
 """Words added to the topic of a sensor that give a topic without publisher."""
@@ -106,7 +99,7 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
             yield span, mention.topic.name, Suggestion(near, mention.topic.name)
     for mention, others in unpublished(model, words):
         if (mention.source.file, start := mention.topic.start) not in seen:
-            near = others[0] if len(others) == 1 else nearest(mention.topic.name.strip("/"), others, cutoff=0.6)
+            near = others[0] if len(others) == 1 else nearest(mention.topic.name.strip("/"), others, cutoff=0.75)
             span = mention.source.span(start, start + len(mention.topic.name))
             listed = f"; {_listed(mention.type, others)}"
             yield span, mention.topic.name, Suggestion(near, mention.topic.name) if near is not None else listed
@@ -130,9 +123,10 @@ def _listed(kind: str, topics: list[str]) -> str:
 def mentions(model: Model) -> Iterator[Mention]:
     """Yield the topics in remappings, parameters, arguments and bridges of the related files."""
     for node in launched_nodes(model):
-        is_python, inputs = node.source.file.endswith(".py"), _INPUTS.get(node.package, {})
+        topics = topics_of(node.package, node.program)
+        is_python, inputs = node.source.file.endswith(".py"), topics.read if topics is not None else {}
         for old, new in node.remappings:
-            kind = inputs.get(old.name.strip("/"), "")
+            kind = inputs.get(old.name.strip("/"), "").removeprefix("Twist")  # velocity_commands reports these
             if is_python or kind:
                 yield Mention(node.source, old)
                 reads = last(old.name) in ("scan", "points", "image")
@@ -162,29 +156,44 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
     mentions of a topic have one cause, such as a remapping, and are reported once.
     """
     read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
-    is_all = bool(read) and is_closed(model)
-    by_type = published_by_type(model, not is_all) if read else {}
-    if not by_type:
+    closed = {type: is_closed(model, type) for type in dict.fromkeys(mention.type for mention in read)}
+    by_type = {is_all: published_by_type(model, not is_all) for is_all in sorted(set(closed.values()))}
+    if not any(by_type.values()):
         return
     controllers = robot_topics(model).controllers
-    in_namespaces = has_namespaces(model) or not is_all
+    in_namespaces = has_namespaces(model)
     has_camera, seen = _has_camera_driver(model), set[str]()
     places = [(mention.source.file, mention.topic.start) for mention in read]
+    places += [(node.source.file, old.start) for node in launched_nodes(model) for old, _ in node.remappings]
+    doubled = {*(type for _, _, type in published_together(model)), *swapped_types(model)}
     for file, source in model.related_files.items():
         if file.endswith((".yaml", ".yml")):
             places += (
                 (file, at.start(1)) for at in re.finditer(r"(?:gz|ign)_topic_name\s*:\s*[\"']?([\w/]+)", source.text)
             )
-            places += _names_of_sources(source) if is_all else ()
+            places += _names_of_sources(source) if any(closed.values()) else ()
+    filtered = {
+        remapped(node, topic)
+        for node in launched_nodes(model)
+        if node.package == "robot_localization" and (known := topics_of(node.package, node.program)) is not None
+        for topic in known.published
+    }
     for mention in read:
-        topic, topics = mention.topic.name.strip("/"), by_type.get(mention.type, set())
-        if topic in topics or topic in seen or (mention.type == "PointCloud2" and has_camera):
+        is_all = closed[mention.type]
+        topic, topics = mention.topic.name.strip("/"), by_type[is_all].get(mention.type, set())
+        if (
+            topic in topics
+            or topic in seen
+            or mention.type in doubled
+            or (mention.type == "PointCloud2" and has_camera)
+        ):
             continue
+        topics = topics - filtered if mention.is_input or mention.type == "NavSatFix" else topics
         is_below = any(
             f"/{one}".endswith(f"/{other}") for each in topics for one, other in ((each, topic), (topic, each))
         )
         is_other = topic.startswith("odometry/") or topic.partition("/")[0] in controllers
-        is_open = (is_below and in_namespaces) or ((is_other or len(topics) > 1) and not is_all)
+        is_open = (is_below and (in_namespaces or not is_all)) or ((is_other or len(topics) > 1) and not is_all)
         if topics and not is_open and not words.names(topic, places, without_rviz=is_all):
             seen.add(topic)
             yield mention, sorted(topics)

@@ -14,13 +14,15 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named, controllers
+from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
-from urdfkit.lint.facts.topics.graph import drive_topics, has_namespaces, remaps_groups
+from urdfkit.lint.facts.topics.graph import drive_topics, remapped, remaps_groups
+from urdfkit.lint.facts.topics.node_topics import topics_of
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
@@ -77,6 +79,7 @@ _DRIVES = r"drive|planar|velocity|mecanum|holonomic|ackermann|steer|force|prius"
 def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the old name and the message of each remapping that has no effect."""
     inputs, files = set(_mux_topics(model, ("topics", "locks"))), parameter_files(model)
+    seen = set[tuple[str, int]]()
     for node in launched_nodes(model):
         for old, new in node.remappings:
             if new.name.startswith("~/") and re.fullmatch(rf"/?{re.escape(new.name[2:])}", old.name):
@@ -91,6 +94,10 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                     old,
                     f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names",
                 )
+        for old, message in _swapped(node):
+            if (node.source.file, old.start) not in seen:  # a function can start several nodes
+                seen.add((node.source.file, old.start))
+                yield node.source, old, message
         label = node.program if f"{node.package}/{node.program}" in _NAMES else node.package
         names = (_NAMES.get(f"{node.package}/{label}") or _NAMES.get(node.package, "")).split()
         if node.program == "navsat_transform_node" and reads_ros1(node.source):
@@ -111,11 +118,29 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
             yield node.source, old, f"`{label}` has no topic `{name}`" + Suggestion(near, name)
 
 
+def _unfed(model: Model, published: set[str]) -> LaunchedNode | None:
+    """Return the only velocity smoother that reads the topic by default, if no node publishes on it."""
+    nodes = [node for node in launched_nodes(model) if node.program == "velocity_smoother"]
+    default = nodes[0] if len(nodes) == 1 and remapped(nodes[0], "cmd_vel") == "cmd_vel" else None
+    return None if default is None or default.has_more_remappings or "cmd_vel" in published else default
+
+
+def _swapped(node: LaunchedNode) -> Iterator[tuple[Named, str]]:
+    """Yield the remappings of a well-known node whose new name is a topic of the node, and whose old name is not."""
+    topics = topics_of(node.package, node.program)
+    names = {*topics.read, *topics.published} if topics is not None else set()
+    if node.package in _NAMES or f"{node.package}/{node.program}" in _NAMES or node.package in _OF_ROS1:
+        return
+    for old, new in node.remappings:
+        if new.name in names and old.name.removeprefix("~").strip("/") not in names:
+            yield old, f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names"
+
+
 def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the new name and the message of each velocity topic that no node reads."""
     nodes = [node for node in launched_nodes(model) if node.package in _COMMANDS]
     written = [(node, old, new) for node in nodes for old, new in node.remappings if _is_command(node, old)]
-    drives = _drive_topics(model) if nodes else frozenset()
+    drives = drive_command_topics(model) if nodes else frozenset()
     every = velocity_inputs(model) if nodes else drives
     own = [(node.source.file, name.start) for node, old, new in written for name in (old, new)]
     used = {new.name.strip("/") for _, _, new in written}
@@ -135,13 +160,18 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
             and topic.partition("/")[0] not in _drives(model)
         ):
             continue  # a namespace
-        if topic == "cmd_vel" and _has_drive(model):
+        if topic == "cmd_vel" and has_drive(model):
             continue
         seen.add(topic)
         unfed = sorted(readers - used)
         near = unfed[0] if len(unfed) == 1 else nearest(topic, unfed, cutoff=0.7)
         shown = ", ".join(f"`{name}`" for name in sorted(readers)[:3])
         what = Suggestion(near, new.name) if near is not None else f"; the nodes of these packages subscribe to {shown}"
+        if (lone := _unfed(model, used)) is not None and lone.place is not None and near is None:
+            named = Named(lone.source.text[slice(*lone.place)], lone.place[0])
+            message = f"no node publishes the velocity commands of this node on `cmd_vel`; remap its input to `{topic}`"
+            yield lone.source, named, message
+            continue
         yield node.source, new, f"no node subscribes to the velocity commands on `{new.name}`" + what
 
 
@@ -154,13 +184,18 @@ def _unmoved_outputs(
 ) -> Iterator[tuple[Source, Named, str]]:
     """Yield the nodes without a remapping whose velocity commands no drive and no other node reads."""
     drives, every = readers
-    if not drives or remaps_groups(model) or has_namespaces(model):
+    if remaps_groups(model):
         return
-    seen = {"cmd_vel"} if _has_drive(model) else set[str]()
+    seen = {"cmd_vel"} if has_drive(model) else set[str]()
     for node in nodes:
         topic = _COMMANDS[node.package]
         is_moved = node.has_more_remappings or any(_is_command(node, old) for old, _ in node.remappings)
-        if is_moved or topic in every | seen or node.program not in _SENDERS or node.place is None:
+        if is_moved or node.program not in _SENDERS or node.place is None or node.namespace is None:
+            continue
+        if node.namespace:
+            yield from _in_other_namespace(node, topic, every)
+            continue
+        if not drives or topic in every | seen:
             continue
         seen.add(topic)
         if words.names(topic, own):
@@ -169,6 +204,16 @@ def _unmoved_outputs(
         what = f"; remap it to `{others[0]}`" if len(others) == 1 else ""
         named = Named(node.source.text[slice(*node.place)], node.place[0])
         yield node.source, named, f"no node subscribes to the velocity commands on `{topic}` of this node{what}"
+
+
+def _in_other_namespace(node: LaunchedNode, topic: str, readers: frozenset[str]) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the namespace of a node whose commands would have a reader in another namespace only."""
+    used = f"{node.namespace}/{topic}"
+    others = sorted(each for each in readers if each.endswith(f"/{topic}"))
+    if used not in readers and topic not in readers and others and node.spaced_by is not None:
+        near = others[0] if len(others) == 1 else nearest(used, others, cutoff=0.6)
+        message = f"no node subscribes to the velocity commands on `{used}`"
+        yield node.source, node.spaced_by, message + Suggestion(near, used)
 
 
 def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:
@@ -193,7 +238,7 @@ def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:
 
 def velocity_inputs(model: Model) -> frozenset[str]:
     """Return the topics of velocity commands that drives, bridges and twist_mux read."""
-    return _drive_topics(model) | frozenset(_mux_topics(model))
+    return drive_command_topics(model) | frozenset(_mux_topics(model))
 
 
 def _is_command(node: LaunchedNode, old: Named) -> bool:
@@ -214,12 +259,13 @@ def _mux_topics(model: Model, kinds: tuple[str, ...] = ("topics",)) -> Iterator[
 
 
 def _drives(model: Model) -> dict[str, str]:
-    """Return the names of the ROS 2 drive controllers → their type."""
+    """Return the names of the drive controllers → their type."""
     found = {each.name: each.kind.text for source in yamls(model) for each in declared(source)}
+    found |= {each.name: each.kind for source in yamls(model) for each in settings(source)}
     return {name: kind for name, kind in found.items() if "diff_drive" in kind or "_steering_controller/" in kind}
 
 
-def _drive_topics(model: Model) -> frozenset[str]:
+def drive_command_topics(model: Model) -> frozenset[str]:
     """Return the topics of velocity commands that controllers, plugins and bridges read."""
     found = set[str]()
     for name, kind in _drives(model).items():
@@ -236,7 +282,7 @@ def _drive_topics(model: Model) -> frozenset[str]:
     return frozenset(found)
 
 
-def _has_drive(model: Model) -> bool:
+def has_drive(model: Model) -> bool:
     """Return whether a plugin may read velocity commands on its default topic."""
-    is_ros1 = any(controllers(source) and not list(declared(source)) for source in yamls(model))
+    is_ros1 = not _drives(model) and any(controllers(source) and not list(declared(source)) for source in yamls(model))
     return is_ros1 or any(re.search(_DRIVES, plugin.filename or "") for plugin, _, _ in plugins(model.robot))

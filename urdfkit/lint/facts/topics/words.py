@@ -10,13 +10,14 @@ from itertools import islice
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import CODE, LAUNCH, package_of
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import code_texts
 
 _NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
 """Endings of the other files that can name a topic."""
 
-_NO_TOPIC = r"(?:frame\w*[\"']?\s*(?:[:=>,]|\bvalue=)\s*|\b(?:type|name)=)[\"']?/?$|<$"
+_NO_TOPIC = r"(?:frame\w*[\"']?\s*(?:[:=>,]|\bvalue=)\s*|\b(?:type|name)=|(?<![\w\"'])type:[ \t]*)[\"']?/?$|<$"
 """Matches the text before a name that is a frame, a type or the name or the tag of an element."""
 
 _MAX_FILES = 400
@@ -45,7 +46,8 @@ class Words:
         pattern = re.compile(rf"(?<![\w/~])(?<!name=[\"'])/?{re.escape(topic)}(?![\w/])")
         model = self._model
         for file, source in {**model.expanded.sources, **model.related_files}.items():
-            for at in pattern.finditer(source.text):
+            text = uncommented(source) if file in model.related_files else source.text
+            for at in pattern.finditer(text):
                 before = source.text[max(source.text.rfind("\n", 0, at.start()), at.start() - 60, 0) : at.start()]
                 if (file, at.start()) not in places and not re.search(_NO_TOPIC, before, re.IGNORECASE):
                     return True

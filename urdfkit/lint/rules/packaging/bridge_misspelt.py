@@ -72,6 +72,7 @@ class BridgeMisspelt(RobotRule):
             return
         from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, REQUIRED, in_launch, in_yaml, malformed_in_launch
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_worlds
         from urdfkit.lint.fix_builders import nearest
 
         bridges: list[tuple[Source, Bridged]] = []
@@ -98,6 +99,10 @@ class BridgeMisspelt(RobotRule):
             defect = _type_defect(bridge) or _direction_defect(bridge) or _former_type(bridge, model)
             if defect is not None:
                 yield self._at(source, *defect)
+        for source, start, world, worlds in topics_of_other_worlds(model):
+            near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
+            message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
+            yield self.at_span(source.span(start, start + len(world)), message)
         for source, reference, message in _topic_defects(bridges, model):
             yield self._at(source, reference, message)
 

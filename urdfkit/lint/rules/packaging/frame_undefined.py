@@ -34,6 +34,7 @@ class FrameUndefined(RobotRule):
     - ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, also in launch files
     - for arms, ``base_link``, ``root_link``, ``tip_link`` and ``ee_link``
     - ``frame_id`` and ``sensor_frame``, if the name differs from a link by one letter
+    - in launch files, the frames of well-known drivers of sensors
 
     The rule reports misspelt link names, unless another description in these packages defines a link of that name.
     Other names are reported in three places if no other file in these packages mentions them: as a frame of a drive
@@ -70,12 +71,18 @@ class FrameUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each named link that no description in these packages can define."""
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
+        from urdfkit.lint.facts.nodes.driver_frames import unknown_frames
         from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import meant
 
         links_by_name = model.robot.link_by_name
         if not links_by_name:
             return
+        for source, frame in unknown_frames(model):
+            span = source.span(frame.start, frame.start + len(frame.name))
+            hint = meant(frame.name, links_by_name)[1]
+            message = f"robot `{model.robot.name}` has no link `{frame.name}`, the frame of this driver" + hint
+            yield self.at_span(span, message, link=frame.name)
         for source in model.related_files.values():
             for match in _named(source, uncommented(source)):
                 name = match[3].rpartition("/")[2]
@@ -130,7 +137,8 @@ def _is_of_robot(source: Source, match: re.Match[str], model: Model) -> bool:
         topics = {publication.topic.strip("/") for publication in published(model)}
         read = [node.find("topic") for node in around]
         return any(topic is not None and topic.text.strip("/") in topics for topic in read)
-    if not any(node.find(name) is not None for node in around for name in _FIXED):
+    is_alone = not any(node.find(name) is not None for node in around for name in _FIXED)
+    if is_alone and match[1] != "robot_base_frame":
         return False
     text = source.text[: match.start()] + source.text[match.end() :]
     if match[1] not in _IN_LAUNCH or model.is_incomplete or re.search(pattern, text):

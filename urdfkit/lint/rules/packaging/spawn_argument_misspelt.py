@@ -84,6 +84,7 @@ class SpawnArgumentMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid argument."""
         from urdfkit.lint.facts.control.launched_nodes import launches, started
+        from urdfkit.lint.facts.gazebo.spawned_models import spawned_in_the_ground, undefined_parameters
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
 
         for source in launches(model):
@@ -103,6 +104,9 @@ class SpawnArgumentMisspelt(RobotRule):
                         span, names = source.span(start, start + len(text)), (node.program,)
                         yield self.at_span(span, message, kind="option", names=names)
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
+                of_robot = (*spawned_in_the_ground(node, model), *undefined_parameters(node, model)) if is_own else ()
+                for start, text, message in of_robot:
+                    yield self.at_span(source.span(start, start + len(text)), message, severity="warning")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (
                         *_invalid_arguments(node, source, model),

@@ -10,7 +10,8 @@ class TopicUnconnected(RobotRule):
     Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,
     ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
     ``joint_state_publisher`` for topics that the node does not have. Also reports nodes such as
-    ``nav2_velocity_smoother`` that subscribe to the topic on which they publish.
+    ``nav2_velocity_smoother`` that subscribe to the topic on which they publish, two equal nodes of a launch file that
+    publish on one topic, and drivers with swapped names in a remapping.
 
     Velocity commands of these nodes and of Nav2 are reported if no other file of the packages names their topic,
     although a ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
@@ -44,7 +45,7 @@ class TopicUnconnected(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.facts.topics.loops import self_readers
+        from urdfkit.lint.facts.topics.loops import published_together, self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
         from urdfkit.lint.facts.topics.velocity_commands import (
             misnamed_remappings,
@@ -58,6 +59,9 @@ class TopicUnconnected(RobotRule):
         for source, name, message in (*misnamed_remappings(model), *loops, *unread):
             span = source.span(name.start, name.start + len(name.name))
             yield self.at_span(span, message)
+        for node, message, _ in published_together(model):
+            if node.place is not None:
+                yield self.at_span(node.source.span(*node.place), message)
         for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
         for source, value, near, message in unfed_mux_topics(model):

@@ -1,0 +1,57 @@
+"""Heights at which launch files spawn a robot in Gazebo, and the parameters with its description."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.defect_message import Suggestion
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.description.xml.numbers import number
+from urdfkit.lint.facts.control.launched_nodes import Started
+from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
+from urdfkit.lint.model.model import Model
+
+_PROGRAMS = ("spawn_model", "spawn_entity.py", "create")
+_MAX_DEPTH = 0.05
+"""Accepted depth of the lowest point below the plane of the ground [m]."""
+
+
+def spawned_in_the_ground(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
+    """Yield offset, text and message of a height that puts a part of the robot below the ground at zero."""
+    if node.program not in _PROGRAMS or model.is_incomplete or len(model.robot.roots()) != 1:
+        return
+    if model.robot.roots()[0].name == "world" or not any(joint.type == "continuous" for joint in model.robot.joints):
+        return
+    for option, word in zip(node.arguments, node.arguments[1:], strict=False):
+        height = number(word.name) if option is not None and word is not None and option.name == "-z" else None
+        lowest = _lowest(model) if height is not None else None
+        if word is not None and height is not None and lowest is not None and height + lowest < -_MAX_DEPTH:
+            depth = -(height + lowest)
+            yield word.start, word.name, f"at this height the robot reaches {depth:.3g} m into the ground"
+
+
+def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
+    """Yield offset, text and message of a description that no launch file of ROS 1 sets as a parameter."""
+    if (node.package, node.program) != ("gazebo_ros", "spawn_model"):
+        return
+    names = {tag.attributes["name"].value for _, tag in tags(ros1_files(model), "param") if "name" in tag.attributes}
+    for option, word in zip(node.arguments, node.arguments[1:], strict=False):
+        is_name = option is not None and word is not None and option.name == "-param" and "$" not in word.name
+        if word is not None and is_name and names and not any("$" in name for name in names):
+            own = {name.rpartition("/")[2] for name in names if "description" in name}
+            if own and word.name.rpartition("/")[2] not in {name.rpartition("/")[2] for name in names}:
+                near = next(iter(own)) if len(own) == 1 else None
+                message = f"no launch file of these packages sets the parameter `{word.name}`"
+                yield word.start, word.name, message + Suggestion(near, word.name)
+
+
+def _lowest(model: Model) -> float | None:
+    """Return the height of the lowest point of the links in the root link [m]; None if a size is unknown."""
+    heights = []
+    for name, extent in model.extents.items():
+        frame = model.frames.get(name)
+        for corner in range(8) if frame is not None else ():
+            x, y, z = ((extent.high if corner >> k & 1 else extent.low)[k] for k in range(3))
+            if frame is not None:
+                heights.append(frame.moved(Pose((x, y, z))).translation[2])
+    return min(heights) if heights else None

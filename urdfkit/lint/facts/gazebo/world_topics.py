@@ -1,0 +1,39 @@
+"""Topics of Gazebo with the name of a world that the packages do not have."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import LAUNCH, package_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.code_files import code_texts
+
+_TOPIC = r"(?<![\w/])/world/(\w+)/(?=\w)"
+_NAMED = r"<world\s[^<>]*?\bname\s*=\s*[\"']([^\"'<>]+)[\"']"
+_ENDINGS = (".sdf", ".world", ".xacro")
+_WORLD_FILE = r"([\w.-]+\.(?:sdf|world))\b"
+
+
+def topics_of_other_worlds(model: Model) -> Iterator[tuple[Source, int, str, list[str]]]:
+    """Yield file, offset and name of each world in a topic that no world file of the packages defines, with theirs."""
+    files = [source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml", *LAUNCH))]
+    used = [(source, at) for source in files for at in re.finditer(_TOPIC, uncommented(source))]
+    if not used:
+        return
+    worlds, names = set[str](), set[str]()
+    folders = {folder for file in model.related_files if (folder := package_of(Path(file))) is not None}
+    for folder in sorted(folders):
+        model.expanded.packages.watch(folder, *_ENDINGS)
+        for path, text in code_texts(folder, _ENDINGS):
+            names.add(path.name)
+            worlds.update(re.findall(_NAMED, text))
+    loaded = {name for source in files for name in re.findall(_WORLD_FILE, uncommented(source))}
+    if not worlds or any("$" in name for name in worlds) or not loaded <= names:
+        return
+    for source, at in used:
+        if at[1] not in worlds:
+            yield source, at.start(1), at[1], sorted(worlds)
