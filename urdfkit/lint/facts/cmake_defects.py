@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
@@ -158,6 +159,13 @@ def _order(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     if "catkin_package" in names and catkin and names.index("catkin_package") < catkin[0]:
         command = every[names.index("catkin_package")]
         yield BuildDefect(source, command.start, command.name, "catkin_package() is called before find_package(catkin)")
+    for tool in _TOOLS:
+        places = [at for at, name in enumerate(names) if name == tool]
+        for first, second in pairwise(places):
+            if not {"if", "else", "elseif", "endif", "return"} & {*names[first:second]}:
+                yield BuildDefect(
+                    source, every[second].start, tool, f"{tool}() is called twice; remove one of the calls"
+                )
     if names.count("ament_package") != 1:
         return
     for command in every[names.index("ament_package") + 1 :]:

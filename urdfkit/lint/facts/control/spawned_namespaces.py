@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
@@ -26,6 +28,7 @@ class MisplacedControllers:
         found: namespace of its parameters.
         expected: namespace of the spawner.
         line: line of the spawner in the launch file.
+        loaded_at: start and end of the namespace in the launch file that moves the parameters; None if the YAML does.
     """
 
     source: Source
@@ -34,6 +37,7 @@ class MisplacedControllers:
     found: str
     expected: str
     line: int
+    loaded_at: tuple[int, int] | None = None
 
 
 def paths_of_controllers(source: Source) -> Iterator[tuple[Node, ...]]:
@@ -54,7 +58,7 @@ def _paths(node: Node, above: tuple[Node, ...]) -> Iterator[tuple[Node, ...]]:
 def misplaced_controllers(launch: Source, model: Model) -> Iterator[MisplacedControllers]:
     """Yield the controllers that a launch file loads and spawns in different namespaces; one of each namespace."""
     tags = [tag for root in Document(launch).roots for tag in root.walk()]
-    loaded: dict[str, tuple[Source, tuple[Node, ...], str]] = {}
+    loaded: dict[str, tuple[Source, tuple[Node, ...], str, Tag]] = {}
     places: set[str] = set()
     for tag in tags:
         if tag.name != "rosparam" or _value(tag, "command") not in ("load", ""):
@@ -65,7 +69,7 @@ def misplaced_controllers(launch: Source, model: Model) -> Iterator[MisplacedCon
         for path in paths_of_controllers(source):
             place = _joined(above, *(key.text for key in path))
             places.add(place)
-            loaded[path[-1].text] = (source, path, place.rpartition("/")[0])
+            loaded[path[-1].text] = (source, path, place.rpartition("/")[0], tag)
     seen: set[str] = set()
     for tag in tags:
         arguments = _value(tag, "args")
@@ -77,10 +81,31 @@ def misplaced_controllers(launch: Source, model: Model) -> Iterator[MisplacedCon
         for name in arguments.split():
             if _joined(expected, name) in places or name not in loaded:
                 continue
-            source, path, found = loaded[name]
+            source, path, found, loader = loaded[name]
             if found not in seen:
                 seen.add(found)
-                yield MisplacedControllers(source, path[0], name, found, expected, launch.position(tag.start).line)
+                line, own = launch.position(tag.start).line, loader.attributes.get("ns")
+                is_own = own is not None and len(path) == 1 and f"/{own.value.strip('/')}" == found
+                at = (own.value_start, own.value_end) if own is not None and is_own else None
+                yield MisplacedControllers(source, path[0], name, found, expected, line, at)
+
+
+def plugins_in_other_namespace(model: Model) -> Iterator[tuple[Element, str]]:
+    """Yield the namespace of each gazebo_ros_control in which no launch file spawns controllers, with the message."""
+    from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, spawners
+
+    found = [spawner for spawner in spawners(ros1_files(model)) if spawner.names]
+    if not found or any("/" in spawner.tag.attributes["args"].value for spawner in found):
+        return
+    namespaces = {spawner.namespace for spawner in found}
+    for plugin, _, _ in plugins(model.robot):
+        written = plugin.element.find("robotNamespace") if "gazebo_ros_control" in (plugin.filename or "") else None
+        if written is not None and "$" not in written.text and written.text.strip().strip("/") not in namespaces:
+            spawner = found[0]
+            place = f"{spawner.source.file}:{spawner.source.position(spawner.tag.start).line}"
+            where = f"namespace `{spawner.namespace}`" if spawner.namespace else "no namespace"
+            message = f"the controller manager is in namespace `{written.text.strip()}`, but the spawner in {place} has"
+            yield written, f"{message} {where}"
 
 
 def _joined(*parts: str) -> str:

@@ -62,7 +62,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
                     yield from _filter(group, controllers)
         for node in costmaps_of_ros1(source):
-            yield from _choices(node)
+            yield from choice_defects(node)
             yield from _plugins(node)
             for each in walk(node):
                 yield from _values(each)
@@ -70,7 +70,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
     for key, group in sections(source):
         name = key.text.strip("/").rpartition("/")[2]
         if name in (*NODES, "slam_toolbox"):
-            yield from _choices(group)
+            yield from choice_defects(group)
             for node in walk(group):
                 yield from _switches(node)
                 yield from _similar(node)
@@ -252,7 +252,7 @@ def _footprint(value: Node) -> str | None:
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
-def _choices(group: Node) -> Defects:
+def choice_defects(group: Node) -> Defects:
     """Yield unknown values of parameters with few values, misspelt frames, and a minimum above its maximum."""
     from urdfkit.lint.facts.ros_packages import is_slip
 

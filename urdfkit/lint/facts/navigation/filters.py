@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import package_of
@@ -16,6 +17,8 @@ from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.nodes.node_sections import groups_of
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.description_files import descriptions
@@ -113,6 +116,8 @@ def filter_defects(model: Model) -> Defects:
     for file in dict.fromkeys(each.source.file for each in every):
         is_reported = any(source.file == file for source, _, _ in children)
         yield from _of_pair([each for each in every if each.source.file == file], not is_reported)
+    if len({each.source.file for each in every}) > 1:
+        yield from _of_launched(model, every)
     for each in every:
         local = {topic.text.strip("/") for one in every if one.is_local for _, topic, _, _ in one.inputs()}
         yield from _of_inputs(each, wheels | local)
@@ -144,6 +149,40 @@ def _of_pair(pair: list[Filter], has_root: bool) -> Defects:
         yield first.source, node, f"`base_link_frame` is `{frames[0]}`, but that of `{second.name}` is `{frames[1]}`"
 
 
+def _of_launched(model: Model, every: list[Filter]) -> Defects:
+    """Yield the world frame of each of two filters in a launch file that publish the same transform."""
+    files = parameter_files(model)
+    by_group = {(each.source.file, id(each.group)): each for each in every}  # equal files share their nodes
+    launched = [
+        (node, found)
+        for node in launched_nodes(model)
+        for source, group in groups_of(node, files)
+        if (found := by_group.get((source.file, id(group)))) is not None and found.publishes
+    ]
+    for (node, one), (other, two) in combinations(launched, 2):
+        is_same = (one.is_local and two.is_local) or (one.is_global and two.is_global)
+        if not is_same or node.source is not other.source or (node.is_conditional and other.is_conditional):
+            continue
+        pair = ((node, one), (other, two))
+        wrong, word = (r"map|global", "map") if one.is_local else (r"odom|local", "odom")
+        names = [f"{each.source.file.rpartition('/')[2]} {_name(at)}" for at, each in pair]
+        if one is two:
+            if other.place is not None:
+                at = other.source.position(other.place[0])
+                value = Node("text", other.source.text[slice(*other.place)], (), (), at.line, at.column)
+                message = f"`{_name(node)}` and `{_name(other)}` have the parameters of one file, so both publish the"
+                yield other.source, value, f"{message} transform from `{one.text('world_frame')}`"
+            continue
+        found = one if re.search(wrong, names[0]) and not re.search(wrong, names[1]) else two
+        if (frame := found.group.find("world_frame")) is not None:
+            message = f"filters `{_name(node)}` and `{_name(other)}` publish the same transform; write `{word}` in one"
+            yield found.source, frame, message
+
+
+def _name(node: LaunchedNode) -> str:
+    return node.name.name if node.name is not None else node.program
+
+
 def _of_inputs(each: Filter, relative: set[str]) -> Defects:
     """Yield inputs of a filter that occur twice or do not measure the fused values.
 
@@ -159,9 +198,14 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
         other = seen.setdefault((kind, topic.text.strip("/")), name)
         if topic.text and other != name:
             yield each.source, topic, f"`{name}` and `{other}` are the same topic `{topic.text}`"
-        fused = [_AXES[at] for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
+        wrong = [at for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
+        fused = [_AXES[at] for at in wrong]
         if fused:
-            yield each.source, config, f"`{name}_config` fuses {', '.join(fused)}, which its messages do not have"
+            yield (
+                each.source,
+                config.items[wrong[0]],
+                f"`{name}_config` fuses {', '.join(fused)}, which its messages do not have",
+            )
         if each.is_global and name in absolute and len(absolute) > 1 and topic.text.strip("/") in relative:
             message = (
                 f"`{name}_config` fuses x and y of drifting odometry in addition to `{{}}`; fuse its velocities instead"

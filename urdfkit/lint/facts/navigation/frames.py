@@ -8,6 +8,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.topics.graph import published_by_type
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
 
@@ -61,12 +62,15 @@ def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
     plugged = {
         text.strip("/") for text, _, parameter, _ in references(model, ("frame",)) if "odom" in parameter.meaning
     }
+    topics = set().union(*published_by_type(model).values())
     for source, key, value in found:
         frame, roles = value.text.strip("/"), _ROLES[key.text]
         used = {other.text.strip("/") for _, name, other in found if _ROLES[name.text] == roles}
         used |= {other.text.strip("/") for _, name, other in found if set(_ROLES[name.text]) & set(roles)} & {*roles}
         others = sorted((used | (plugged if "odom" in roles else set())) - {frame})
         is_reported = any(is_slip(frame, name) for name in ("odom", "map"))
+        if "/" in frame and frame in topics:
+            yield source, value, f"`{key.text}` is `{frame}`, which is a topic and not a frame"
         if not others or "$" in frame or is_reported or frame in ("map", "odom") or frame in model.robot.link_by_name:
             continue
         if frame.isidentifier() and words.occurs_once(frame):

@@ -16,7 +16,9 @@ from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.navigation.plugin_parameters import foreign_parameters, repeated_plugins, short_model_steps
 from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.parameters.other_names import renamed_in
 from urdfkit.lint.model.model import Model
 
 Defects = Iterator[tuple[Source, Node, str]]
@@ -66,10 +68,16 @@ def plugin_defects(model: Model) -> Defects:
     """Yield the sections and names of plugins and the topics of costmaps that no node reads: file, place, message."""
     files = list(yamls(model))
     yield from _unread_sections(files)
+    planners = {
+        at[1] for source in files for at in re.finditer(r"base_local_planner\s*:\s*[\"']?\w+/(\w+)", source.text)
+    }
     for source in files:
         if PARAMETERS not in source.text:
-            yield from _in_ros1(source)
+            yield from _in_ros1(source, planners)
         if PARAMETERS in source.text:
+            yield from foreign_parameters(source)
+            yield from repeated_plugins(source)
+            yield from short_model_steps(source)
             yield from _mixed(source)
             yield from _costmap_topics(source)
 
@@ -96,14 +104,14 @@ def _unread_sections(files: list[Source]) -> Defects:
             yield source, key, f"`{parameter}` loads `{kind}`, which does not read the section `{key.text}`"
 
 
-def _in_ros1(source: Source) -> Defects:
+def _in_ros1(source: Source, loaded: set[str]) -> Defects:
     """Yield the unknown classes of planners and layers, and the parameters of other planners, in a ROS 1 file."""
     for node in (each for root in documents(source)[0] for each in walk(root)):
         for key, value in node.entries:
-            for old, new in _OTHER_NAMES.get(key.text, {}).items():
-                place = next((inner for inner, _ in value.entries if inner.text == old), None)
-                if place is not None and value.find(new) is None:
-                    yield source, place, f"`{key.text}` has no parameter `{old}`" + Suggestion(new, old)
+            names = _OTHER_NAMES.get(key.text, {})
+            if key.text not in loaded and not loaded.isdisjoint(_OTHER_NAMES):
+                names = {}  # a section that is not read
+            yield from ((source, *defect) for defect in renamed_in(key.text, value, names))
             is_class = key.text in (*_LOADED, "type") and value.kind == "text"
             if is_class and value.text.startswith("nav2_") and re.search("costmap_2d|planner", value.text):
                 yield source, value, f"plugin `{value.text}` belongs to Nav2, which ROS 1 does not have"

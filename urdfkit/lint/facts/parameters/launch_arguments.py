@@ -26,6 +26,12 @@ _TRUTHS = ("true", "false", "1", "0")
 ARGUMENT_USE = r"\$\((?:var|arg)\s+([\w-]+)\s*\)"
 """Matches the use of a launch argument in XML or YAML, or as `ArgumentReader` writes it."""
 
+_COMPARISON = (
+    r"(?:\barg\([\"'](?=[\w.-]+[\"']\)\s*==)|'\$\((?:var|arg)\s+|(?<=\$\(eval )(?=\w+\s*==))"
+    r"([\w.-]+)(?:[\"']\)|\)')?\s*==\s*[\"'&;quot]*?[\"']?([\w.-]*)[\"'&]"
+)
+"""Matches a comparison of a launch argument with a constant in XML: argument and constant."""
+
 
 @record(eq=False)
 class Expected:
@@ -35,11 +41,13 @@ class Expected:
         choices: argument → its choices.
         conditions: arguments that are conditions.
         values: argument and value of each default and each comparison, with whether it is a default.
+        compared: argument → the values that the file compares it with.
     """
 
     choices: dict[str, tuple[str, ...]] = field(default_factory=dict)
     conditions: set[str] = field(default_factory=set)
     values: list[tuple[str, Named, bool]] = field(default_factory=list)
+    compared: dict[str, set[str]] = field(default_factory=dict)
 
 
 def refused_values(model: Model) -> Iterator[tuple[Span, str]]:
@@ -69,6 +77,11 @@ def _refused(name: str, value: str, expected: Expected, is_passed: bool) -> str 
         return f"launch argument `{name}` has no choice `{value}`" + hint
     if choices is None and is_passed and name in expected.conditions and value.strip().lower() not in _TRUTHS:
         return f"launch argument `{name}` is a condition, and `{value}` is neither true nor false"
+    compared = expected.compared.get(name, set())
+    is_listed = any(name == argument and default.name in compared for argument, default, is_default in expected.values)
+    if choices is None and is_passed and is_listed and len(compared) > 1 and value and value not in compared:
+        listed = ", ".join(f"`{each}`" for each in sorted(compared)[:5])
+        return f"no condition is true for the value `{value}` of launch argument `{name}`; the conditions name {listed}"
     return None
 
 
@@ -79,6 +92,9 @@ def _span(source: Source, value: Named) -> Span:
 def expected_values(source: Source) -> Expected:
     """Return the values that the arguments of a launch file accept, with its defaults."""
     found = Expected()
+    for at in re.finditer(_COMPARISON, source.text):
+        if at[2] is not None and not re.fullmatch(r"[Tt]rue|[Ff]alse|", at[2]):
+            found.compared.setdefault(at[1], set()).add(at[2])
     if not source.file.endswith(".py"):
         for element in all_elements(source):
             for key in ("if", "unless"):

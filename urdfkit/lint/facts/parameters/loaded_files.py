@@ -15,8 +15,11 @@ from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import ResourceError
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
+from urdfkit.lint.facts.control.yaml_tree import documents
 from urdfkit.lint.facts.launch.actions import actions_of, share_of
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files
+from urdfkit.lint.facts.navigation.sections import COSTMAPS
+from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Attribute, Document, Tag
 
@@ -46,10 +49,35 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         if use is not None and not is_replaced:
             yield file, f'`{use[0]}` in {name} is not replaced; add `subst_value="true"`'
         namespace = _namespace(tag)
+        is_of_costmaps = tag.parent is not None and tag.parent.name == "node" and _program(tag.parent) == "move_base"
+        if is_of_costmaps and (message := _unread_by_costmaps(parameters, _own_namespace(tag))) is not None:
+            yield file, f"{name} {message}"
         for end, expected in _EXPECTED.items():
             is_other = re.search(r"(?m)^[ \t]*[\w/]+[ \t]*:", text) and not any(word in text for word in expected)
             if namespace.endswith(f"robot_description{end}") and is_other:
                 yield file, f"{name} has no `{expected[0]}`, which MoveIt reads from `robot_description{end}`"
+
+
+def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
+    """Return why the costmaps of move_base do not read a file; None if they do, or if it is for another part."""
+    roots = documents(parameters)[0]
+    names = {key.text for root in roots for key, _ in root.entries}
+    if not namespace and not names & {*COSTMAPS} and len(names & COSTMAP_ROS1) + len(names & _LAYERS) > 2:
+        return 'has parameters of costmaps, which these read in their namespace only; add `ns="local_costmap"`'
+    if namespace in COSTMAPS and namespace in names:
+        return f"names `{namespace}` too, so its parameters are in `{namespace}/{namespace}`; remove `ns`"
+    return None
+
+
+_LAYERS = frozenset(("obstacle_layer", "inflation_layer", "static_layer", "voxel_layer", "obstacles_layer", "inflater"))
+
+
+def _program(tag: Tag) -> str:
+    return tag.attributes["type"].value if "type" in tag.attributes else ""
+
+
+def _own_namespace(tag: Tag) -> str:
+    return tag.attributes["ns"].value.strip("/") if "ns" in tag.attributes else ""
 
 
 def unloaded_pipelines(source: Source, model: Model) -> Defects:

@@ -8,10 +8,16 @@ from fnmatch import fnmatchcase
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.navigation.defects import choice_defects
 from urdfkit.lint.facts.navigation.sections import sections
-from urdfkit.lint.facts.parameters.schemas import OF_GROUPS, renamed, schemas
+from urdfkit.lint.facts.nodes.node_sections import groups_of
+from urdfkit.lint.facts.nodes.started import launched_nodes, parameter_files
+from urdfkit.lint.facts.parameters.other_names import renamed_in
+from urdfkit.lint.facts.parameters.schemas import OF_CONTROLLERS, OF_GROUPS, OF_ROS1, renamed, schemas
+from urdfkit.lint.model.model import Model
 
 Defects = Iterator[tuple[Node, str]]
 
@@ -38,6 +44,36 @@ def node_defects(source: Source) -> Defects:
         for node in walk(group):
             yield from _renamed_in_groups(node)
     yield from _nested_lists(source)
+
+
+def node_defects_of_ros1(model: Model) -> Iterator[tuple[Source, Node, str]]:
+    """Yield the parameters of ROS 2 in the YAML files of ROS 1: of controllers, costmaps and launched nodes."""
+    for source in yamls(model):
+        if PARAMETERS in source.text:
+            continue
+        for one in settings(source):
+            names = OF_CONTROLLERS.get(one.kind, {})
+            yield from ((source, *defect) for defect in renamed_in(one.name, one.group, names))
+        for node in (each for root in documents(source)[0] for each in walk(root)):
+            for key, inputs in node.entries if "priority" in source.text else ():
+                is_group = key.text in ("topics", "locks") and any(each.find("priority") for _, each in inputs.entries)
+                if is_group:
+                    message = (
+                        f"`{key.text}` of twist_mux in ROS 1 is a list; write `- name: {inputs.entries[0][0].text}`"
+                    )
+                    yield source, key, message
+            if node.find("topic") is not None and (kind := node.find("data_type")) is not None:
+                names = {new: old for old, new in OF_GROUPS.get(kind.text, {}).items()}
+                yield from ((source, *defect) for defect in renamed_in(kind.text, node, names))
+    files, seen = parameter_files(model), set[tuple[str, int]]()
+    for launched in launched_nodes(model):
+        names = OF_ROS1.get(launched.package, {})
+        for source, group in groups_of(launched, files) if names else ():
+            if PARAMETERS not in source.text:
+                for place, message in (*renamed_in(launched.program, group, names), *choice_defects(group)):
+                    if (source.file, place.line) not in seen:
+                        seen.add((source.file, place.line))
+                        yield source, place, message
 
 
 def wrong_numbers_of_nodes(source: Source) -> Iterator[tuple[Node, str, str]]:
@@ -137,13 +173,8 @@ def _listed(names: list[str]) -> str:
 
 def _renamed_in_groups(node: Node) -> Defects:
     """Yield the ROS 1 parameters in plugins and observation sources of Nav2."""
-    kinds = [value.text for key, value in node.entries if key.text in ("plugin", "data_type")]
-    names = {key.text for key, _ in node.entries}
-    for kind in kinds:
-        for key, _ in node.entries:
-            right = OF_GROUPS.get(kind, {}).get(key.text)
-            if right is not None and right not in names:
-                yield key, f"`{kind}` has no parameter `{key.text}`" + Suggestion(right, key.text)
+    for kind in [value.text for key, value in node.entries if key.text in ("plugin", "data_type")]:
+        yield from renamed_in(kind, node, OF_GROUPS.get(kind, {}))
 
 
 def _shared_axes(group: Node) -> Defects:

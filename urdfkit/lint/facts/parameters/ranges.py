@@ -73,8 +73,8 @@ allowed_start_tolerance||0.00001 3.2
 """
 """Parameters, then parameters of which one is in the same group (any if empty), then range and unit."""
 
-_OF_ANGLES = ("magnetic_declination_radians", "yaw_offset")
-_TURN = 6.3
+_ANGLES = {"magnetic_declination_radians": 1.6, "yaw_offset": 6.3}
+"""Parameter → its greatest sensible angle [rad]; the declination is below 0.6 rad except near the poles."""
 
 _Row = tuple[tuple[str, ...], float, float, str]
 
@@ -98,8 +98,9 @@ def out_of_range(source: Source) -> Iterator[tuple[Node, str]]:
     for node in (node for root in documents(source)[0] for node in walk(root) if node.entries):
         names = {key.text for key, _ in node.entries}
         for key, value in node.entries:
-            if key.text in _OF_ANGLES and (angle := number_of(value)) is not None and abs(angle) > _TURN:
-                yield value, f"`{key.text}` is {angle:g} rad, more than a turn; convert it if it is in degrees"
+            most, angle = _ANGLES.get(key.text), number_of(value) if value.kind == "text" else None
+            if most is not None and angle is not None and abs(angle) > most:
+                yield value, f"`{key.text}` is {angle:g} rad, more than {most:g} rad; convert it if it is in degrees"
             row = ranges.get(key.text)
             if row is None or (row[0] and names.isdisjoint(row[0])):
                 continue

@@ -206,6 +206,38 @@ OF_GROUPS = {
 }
 """Plugin or type of data of a group → ROS 1 parameters → those of Nav2 since Galactic."""
 
+OF_CONTROLLERS = {
+    "diff_drive_controller/DiffDriveController": {
+        **{"left_wheel_names": "left_wheel", "right_wheel_names": "right_wheel"},
+        **dict.fromkeys(("wheel_seperation", "wheel_base", "track_width"), "wheel_separation"),
+    },
+    "joint_state_controller/JointStateController": {"update_rate": "publish_rate"},
+    "ackermann_steering_controller/AckermannSteeringController": {
+        **{"rear_wheels_names": "rear_wheel", "front_wheels_names": "front_steer"},
+        **{"wheelbase": "wheel_separation_h"},
+    },
+}
+"""Type of a controller of ROS 1 → names in other packages and releases → its names (ros_controllers, Noetic)."""
+
+OF_ROS1 = {
+    "amcl": {
+        **{f"alpha{at}": f"odom_alpha{at}" for at in range(1, 6)},
+        **{name: f"laser_{name}" for name in ("max_beams", "z_hit", "z_short", "z_max", "z_rand", "sigma_hit")},
+        **{"pf_err": "kld_err", "pf_z": "kld_z", "robot_model_type": "odom_model_type"},
+    },
+    "gmapping": {
+        **{"base_frame_id": "base_frame", "odom_frame_id": "odom_frame", "map_frame_id": "map_frame"},
+        **{"max_range": "maxRange", "resolution": "delta", "max_laser_range": "maxRange"},
+    },
+    "teleop_twist_joy": {"axis_linear.x": "axis_linear", "axis_angular.yaw": "axis_angular"},
+    "move_base": {
+        **{"controller_plugins": "base_local_planner", "planner_plugins": "base_global_planner"},
+        **{"expected_planner_frequency": "planner_frequency"},
+    },
+    "robot_state_publisher": {"frequency": "publish_frequency"},
+}
+"""Package of ROS 1 → names of other releases → names of Noetic (navigation, slam_gmapping, teleop_twist_joy)."""
+
 
 @cache
 def schemas() -> dict[str, list[tuple[str, str]]]:

@@ -15,7 +15,7 @@ _TOO_LARGE = 2.5
 
 
 class CostmapContradictsRobot(RobotRule):
-    """The ``robot_radius`` or ``footprint`` of a costmap is much smaller or larger than the robot.
+    """A costmap contradicts the size of the robot, or the place of its scanner.
 
     ## What it does
     Compares ``robot_radius`` and ``footprint`` in the parameters of costmaps with the box around the links of the robot
@@ -23,6 +23,9 @@ class CostmapContradictsRobot(RobotRule):
     robot, or above 2.5 times the distance of its farthest corner. For a footprint, the first limit applies to the
     inscribed radius and the second one to the circumscribed radius. Robots with meshes that are not found are not
     checked.
+
+    Also reports heights of obstacles that exclude each point of a level laser scanner of the robot, and a range of
+    slam_toolbox or gmapping far beyond that of the scanner.
 
     ## Why is this bad?
     Navigation plans paths that are too narrow for the robot, or finds none.
@@ -53,7 +56,10 @@ class CostmapContradictsRobot(RobotRule):
         from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
         from urdfkit.lint.facts.control.yaml_tree import documents, number_of, span_of, walk, yamls
         from urdfkit.lint.facts.navigation.costmaps import footprint_of, inscribed_radius
+        from urdfkit.lint.facts.navigation.sensor_contradictions import sensor_contradictions
 
+        for source, node, message in sensor_contradictions(model):
+            yield self.at_span(span_of(source, node), message)
         sources = [source for source in yamls(model) if re.search(r"robot_radius|footprint", source.text)]
         size = _size(model) if sources and not has_other_wheels(model) else None
         if size is None:

@@ -16,7 +16,9 @@ class NavigationSettingsInconsistent(RobotRule):
     - footprints whose sides cross or that do not contain the origin
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
     - a speed of the controller more than twice the limit of the velocity smoother
-    - plugin names of different releases in one file
+    - a linear speed above that at which a wheel joint turns with its greatest velocity
+    - plugin names of different releases in one file, and plugins with the parameters of another plugin
+    - a time step of the MPPI controller that is shorter than the period of its server
 
     ## Why is this bad?
     The robot drives into obstacles that are not inflated, leaves its local costmap, or uses the default parameters of
@@ -52,9 +54,12 @@ class NavigationSettingsInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.facts.navigation.commanded_speeds import unreachable_speeds
+        from urdfkit.lint.facts.navigation.commanded_speeds import speeds_beyond_wheels, unreachable_speeds
         from urdfkit.lint.facts.navigation.costmaps import costmap_defects
         from urdfkit.lint.facts.navigation.navigation_plugins import plugin_defects
 
-        for source, node, message in (*costmap_defects(model), *plugin_defects(model), *unreachable_speeds(model)):
+        found = [*costmap_defects(model), *plugin_defects(model), *unreachable_speeds(model)]
+        reported = {id(node) for _, node, _ in found}
+        found += [each for each in speeds_beyond_wheels(model) if id(each[1]) not in reported]
+        for source, node, message in found:
             yield self.at_span(span_of(source, node), message)

@@ -100,13 +100,13 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
         from urdfkit.lint.facts.navigation.sections import costmaps_not_nested
         from urdfkit.lint.facts.parameters.joint_lists import list_defects
-        from urdfkit.lint.facts.parameters.node_parameters import node_defects
+        from urdfkit.lint.facts.parameters.node_parameters import node_defects, node_defects_of_ros1
         from urdfkit.lint.facts.parameters.ranges import out_of_order
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
         names = frozenset(name for source in yamls(model) for name in controllers(source))
-        for source, place, message in published_twice(model):
+        for source, place, message in (*published_twice(model), *node_defects_of_ros1(model)):
             yield self.at_span(span_of(source, place), message)
         for source in yamls(model):
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()

@@ -17,6 +17,7 @@ class SpawnedControllerUndefined(RobotRule):
     - misspellings of a controller with a type in the YAML files of these packages
     - in ROS 2, controllers whose parameters are in a file that gives a type only to other controllers
     - in ROS 1, controllers that the same launch file loads in a namespace other than that of the spawner
+    - in ROS 1, spawners in a namespace other than that of ``gazebo_ros_control``
 
     Python launch files are parsed, not executed.
 
@@ -54,6 +55,7 @@ class SpawnedControllerUndefined(RobotRule):
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.launched_nodes import started
+        from urdfkit.lint.facts.control.spawned_namespaces import plugins_in_other_namespace
         from urdfkit.lint.facts.control.spawned_together import SPAWNERS, spawned, untyped
         from urdfkit.lint.facts.control.yaml_tree import span_of
 
@@ -61,6 +63,8 @@ class SpawnedControllerUndefined(RobotRule):
         parameter_files = [file for file in model.related_files.values() if file.file.endswith((".yaml", ".yml"))]
         if not launches or not parameter_files:
             return
+        for element, message in plugins_in_other_namespace(model):
+            yield self.at(model, element, message)
         defined = [name for file in parameter_files for name in controllers(file)]
         for source, key, launch in untyped(model):
             message = f"controller `{key.text}` has no `type`, but {launch.file} spawns it"
@@ -92,4 +96,5 @@ class SpawnedControllerUndefined(RobotRule):
             found, expected = (f"namespace `{name}`" if name else "no namespace" for name in (one.found, one.expected))
             spawner = f"{source.file}:{one.line}"
             message = f"`{one.controller}` is in {found}, but its spawner in {spawner} has {expected}"
-            yield self.at_span(span_of(one.source, one.key), message)
+            span = source.span(*one.loaded_at) if one.loaded_at is not None else span_of(one.source, one.key)
+            yield self.at_span(span, message)
