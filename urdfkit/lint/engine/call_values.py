@@ -12,6 +12,9 @@ _HANDED_ON = r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*"
 _ATTRIBUTE = rf"(?:<[\w:.-]+\s+)?[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"'](?:\s*/?>)?"
 """Matches an attribute, or a tag with one attribute."""
 
+_TEXT = rf"<[\w:.-]+>{_HANDED_ON}</"
+"""Matches an element whose text is a parameter."""
+
 
 def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
     """Return the findings; those on ``${parameter}`` in a macro are moved to the value in the macro call.
@@ -37,7 +40,10 @@ def _moved(finding: Finding, span: Span) -> Finding:
 
 
 def _written(finding: Finding, model: Model) -> Span | None:
-    """Return the span of the attribute of a macro call whose literal value a finding is about, if there is one."""
+    """Return the span of the attribute whose literal value a finding is about: of a macro call, or of a property.
+
+    A property is one that only the macro call uses.
+    """
     from urdfkit.lint.facts.root_cause import value_of
 
     if finding.file not in model.expanded.sources or len(finding.chains) != 1:
@@ -46,17 +52,27 @@ def _written(finding: Finding, model: Model) -> Span | None:
     if "urdfkit:" in document.source.text:
         return None
     start, end = (document.source.offset(*at) for at in ((span.line, span.column), (span.end_line, span.end_column)))
-    handed_on = re.fullmatch(_ATTRIBUTE, document.source.text[start:end])
+    text = document.source.text
+    handed_on = re.fullmatch(_ATTRIBUTE, text[start:end]) or re.match(_TEXT, text[start:])
     found: Span | None = None
-    while handed_on is not None and calls:
+    while handed_on is not None:
         value, place, outer = value_of(model, handed_on[1], calls)
-        if place is None or place[0] != calls[0].position:
-            return None  # a property or a default value
+        is_property = place is not None and (not calls or place[0] != calls[0].position)
+        if place is None or (is_property and not (_is_used_once(handed_on[1], model) and value.strip() and not outer)):
+            return None  # a default value, or a property of several uses
         handed_on = re.fullmatch(_HANDED_ON, value)
         if handed_on is None and "$" not in value and _is_named(value.strip(), finding.message):
             found = model.span(*place)
+        if is_property:
+            break
         calls = tuple(outer)
     return found
+
+
+def _is_used_once(name: str, model: Model) -> bool:
+    """Return whether expressions of the description name a property once."""
+    pattern = rf"\$\{{[^{{}}]*?(?<!\w){name}(?!\w)[^{{}}]*\}}"
+    return sum(len(re.findall(pattern, source.text)) for source in model.expanded.sources.values()) == 1
 
 
 def _is_named(value: str, message: str) -> bool:

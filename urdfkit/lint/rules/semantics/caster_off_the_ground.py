@@ -4,7 +4,19 @@ import re
 from math import degrees, hypot, sqrt
 
 from urdfkit.description.urdf.geometry import rotate, unit
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Joint, Link, Mesh, Sphere, Vector
+from urdfkit.description.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Joint,
+    Link,
+    Mesh,
+    Sphere,
+    Vector,
+    Visual,
+)
 from urdfkit.lint.facts.gazebo.rolling_wheels import WheelPairs, is_lifted, pairs_of_wheels
 from urdfkit.lint.model.placement import Frame
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -13,7 +25,7 @@ _CASTER_NAME = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
 _MAX_TILT = 0.06
 """Largest accepted tilt [rad]; robots that are tilted by design stay below it."""
 
-_MAX_DEPTH = 0.1
+_MAX_DEPTH = 0.05
 """Largest accepted depth of a link below the wheels, as a fraction of the wheel radius."""
 
 _MAX_CASTER = 1.5
@@ -127,7 +139,8 @@ class CasterOffTheGround(RobotRule):
         root = _root(parent_joint, drive.left[0].joint)
         for link in model.robot.links:
             frame = model.frames.get(link.name)
-            lowest = _lowest(link, frame) if frame is not None and link.name not in driven else None
+            found = _lowest(link, frame) if frame is not None and link.name not in driven else None
+            lowest, shape = found if found is not None else (None, None)
             joint = parent_joint.get(link.name)
             if lowest is None or frame is None or not _is_rigid(model, parent_joint, link):
                 continue
@@ -138,7 +151,7 @@ class CasterOffTheGround(RobotRule):
             element = joint.element if joint is not None else link.element
             gap, distance = lowest[2] - ground, hypot(lowest[0] - centre[0], lowest[1] - centre[1])
             is_caster = joint is not None and _CASTER_NAME.search(f"{link.name} {joint.name}") is not None
-            size = max(_radius(shape.geometry) for shape in link.collisions or link.visuals)
+            size = max(_radius(each.geometry) for each in link.collisions or link.visuals)
             if is_caster and size > _MAX_CASTER * radius:
                 message = f"caster `{link.name}` has a radius of {size:.3g} m, but the drive wheels have {radius:.3g} m"
                 help = "check the decimal point and the unit of the radius"
@@ -147,7 +160,11 @@ class CasterOffTheGround(RobotRule):
                 message = f"link `{link.name}` extends {-gap:.3g} m below the drive wheels and lifts them"
                 help = f"raise the link or its shapes by {-gap:.3g} m"
                 wheels = tuple(wheel.joint.child or "" for wheel in (*drive.left, *drive.right))
-                yield self.at(model, element, message, attribute="name", link=link.name, help=help, names=wheels)
+                # The other shapes of the link are above the ground, so the place of this one is wrong.
+                is_only = shape is not None and (len(link.collisions) == len(link.visuals) == 1 and _differ(link))
+                place = shape.element.find("origin") or shape.element if shape is not None and is_only else element
+                attribute = None if is_only else "name"
+                yield self.at(model, place, message, attribute=attribute, link=link.name, help=help, names=wheels)
             elif joint is not None and is_caster and len(drive.left) == 1 and gap < 2.0 * radius:
                 supports.append((gap / max(distance, 1e-3), gap, joint))
         for tilt, gap, joint in sorted(supports, key=lambda support: support[0])[:1]:
@@ -155,11 +172,12 @@ class CasterOffTheGround(RobotRule):
                 message = (
                     f"link `{joint.child}` is {gap:.3g} m above the ground, so the robot tips by {degrees(tilt):.3g}°"
                 )
+                origin = joint.element.find("origin")
                 yield self.at(
                     model,
-                    joint.element,
+                    joint.element if origin is None else origin,
                     message,
-                    attribute="name",
+                    attribute="name" if origin is None else "xyz",
                     link=joint.child,
                     joint=joint.name,
                     help=f"lower the link by {gap:.3g} m",
@@ -216,9 +234,9 @@ def _is_floor(link: Link, frame: Frame, drive: WheelPairs, ground: float) -> boo
     return False
 
 
-def _lowest(link: Link, frame: Frame) -> Vector | None:
-    """Return the lowest point of the shapes of a link in the root frame [m]; None without shapes or with meshes."""
-    points: list[Vector] = []
+def _lowest(link: Link, frame: Frame) -> tuple[Vector, Visual | Collision] | None:
+    """Return the lowest point of a link in the root frame [m] and its shape; None without shapes or with meshes."""
+    points: list[tuple[Vector, Visual | Collision]] = []
     for shape in link.collisions or link.visuals:
         geometry = shape.geometry
         if not link.collisions and any(shape.origin.xyz):
@@ -236,5 +254,10 @@ def _lowest(link: Link, frame: Frame) -> Vector | None:
             length = geometry.length if isinstance(geometry, Capsule) else 0.0
             depth = abs(up[2]) * length / 2.0 + geometry.radius
         x, y, z = pose.translation
-        points.append((x, y, z - depth))
-    return min(points, key=lambda point: point[2]) if points else None
+        points.append(((x, y, z - depth), shape))
+    return min(points, key=lambda point: point[0][2]) if points else None
+
+
+def _differ(link: Link) -> bool:
+    """Return whether the collision shape of a link is at another place than its visual shape."""
+    return link.collisions[0].origin.xyz != link.visuals[0].origin.xyz

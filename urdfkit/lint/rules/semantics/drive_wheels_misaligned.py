@@ -146,8 +146,12 @@ class DriveWheelsMisaligned(RobotRule):
                 yield self._at(model, first, other, message, "correct the <origin> of one of the joints")
 
     def _at(self, model: Model, first: Wheel, other: Wheel, message: str, help: str) -> Finding:
+        from urdfkit.lint.facts.macro_calls import equal_call
+
         joint, names = other.joint, (first.joint.name,)
-        return self.at(model, joint.element, message, attribute="name", joint=joint.name, help=help, names=names)
+        call = equal_call(model, first.joint.element, joint.element) if "same place" in message else None
+        place, attribute = (joint.element, "name") if call is None else (call, None)
+        return self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
 
 
 def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:

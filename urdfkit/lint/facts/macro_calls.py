@@ -1,0 +1,26 @@
+"""Calls of one macro whose numbers are equal although their elements must differ."""
+
+from __future__ import annotations
+
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number
+from urdfkit.description.xml.source import Position
+from urdfkit.lint.model.model import Model
+
+
+def equal_call(model: Model, first: Element, other: Element) -> Position | None:
+    """Return the call that produced the second of two elements, if that of the first one passes the same numbers.
+
+    None if another macro, or none, produced one of them, or if the calls pass no number: then the macro is wrong.
+    """
+    one, two = first.origin.expansions[:1], other.origin.expansions[:1]
+    if first.origin.position != other.origin.position or not one or not two or one[0].position == two[0].position:
+        return None
+    calls = [model.tag(each.position) for each in (one[0], two[0])]
+    values = [
+        {name: found for name, each in call.attributes.items() if (found := number(each.value)) is not None}
+        for call in calls
+        if call is not None
+    ]
+    common = values[0].keys() & values[1].keys() if len(values) == 2 else ()
+    return two[0].position if common and all(values[0][name] == values[1][name] for name in common) else None
