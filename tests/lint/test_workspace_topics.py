@@ -93,7 +93,7 @@ BAD = [
         "odom0: wheel/odometry",
         "K977",
         3,
-        "`wheel/odometry`; the Odometry topics of these pac",
+        "`wheel/odometry`; did you mean `odom`?",
     ),
     ("ekf.yaml", "imu0: imu/data", "imu0: imu", "K977", 4, "`imu`; did you mean `imu/data`?"),
     ("slam.yaml", "/scan", "/front/scan", "K977", 3, "`/front/scan`; did you mean `scan`?"),

@@ -262,6 +262,8 @@ RELATED_FILES: tuple[Row, ...] = (
     (_PYTHON, "launch.exit_handler_never_runs", "ExitHandlerNeverRuns"),
     (_LAUNCH, "launch.map_transform_published_twice", "MapTransformPublishedTwice"),
     (_LAUNCH, "launch.launch_argument_refused", "LaunchArgumentRefused"),
+    (_LAUNCH, "launch.node_arguments_missing", "NodeArgumentsMissing"),
+    (_LAUNCH, "launch.hardware_in_simulation", "HardwareInSimulation"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

@@ -56,3 +56,34 @@ def test_with_urdfkit_as_the_target_findings_stay_where_repairs_are_reported(tmp
     position = Simulator("r.urdf.xacro", note=lambda text: None).repairs[0].position
     assert (found.file, found.line, found.column) == (position.file, position.line, position.column)
     assert found.file == "parts.xacro"
+
+
+TWINS = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="ball_mass" value="{}"/>
+  <xacro:macro name="wheel" params="side y mass">
+    <link name="${{side}}">
+      <collision><origin rpy="${{pi / 2}} 0 0"/><geometry><cylinder radius="0.1" length="0.04"/></geometry></collision>
+      <inertial><mass value="${{mass}}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    </link>
+    <joint name="${{side}}_joint" type="continuous">
+      <parent link="base"/><child link="${{side}}"/><origin xyz="0 ${{y}} 0"/><axis xyz="0 1 0"/>
+    </joint>
+  </xacro:macro>
+  <link name="base"/>
+  <xacro:wheel side="left" y="0.2" mass="1"/>
+  <xacro:wheel side="right" y="{}" mass="${{ball_mass}}"/>
+  <gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so"><left_joint>left_joint</left_joint>
+    <right_joint>right_joint</right_joint><wheel_separation>0.4</wheel_separation></plugin></gazebo>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("mass", "y", "code", "line"),
+    [("-2", "-0.2", "I501", 2), ("1", "0.2", "S907", 14), ("1", "0.2 * 1", "S907", 8)],
+    ids=["property", "equal-calls", "calls-that-differ"],
+)
+def test_a_value_is_found_where_it_is_written_once(mass, y, code, line, tmp_path):
+    (tmp_path / "r.urdf.xacro").write_text(TWINS.format(mass, f"${{{y}}}" if "*" in y else y))
+    (found,) = lint(tmp_path / "r.urdf.xacro", select=(code,), target="ros2")
+    assert found.line == line

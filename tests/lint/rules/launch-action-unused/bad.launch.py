@@ -7,8 +7,8 @@ from launch_ros.actions import Node
 
 def generate_launch_description():
     gui = DeclareLaunchArgument("gui", default_value="true")  # <!-- expect: L107 -->
-    spawner: Node = Node(package="controller_manager", executable="spawner")  # <!-- expect: L107 -->
-    other = Node(package="controller_manager", executable="spawner")
+    spawner: Node = Node(package="controller_manager", executable="spawner", arguments=["a"])  # <!-- expect: L107 -->
+    other = Node(package="controller_manager", executable="spawner", arguments=["a"])
     handler = RegisterEventHandler(OnProcessExit(target_action=spawner, on_exit=[other]))
     shell = launch.actions.ExecuteProcess(cmd=["ls"])  # <!-- expect: L107 -->
     return LaunchDescription([handler])

@@ -6,8 +6,8 @@ from launch_ros.actions import Node
 
 def generate_launch_description():
     gui = DeclareLaunchArgument("gui", default_value="true")
-    spawner = Node(package="controller_manager", executable="spawner")
-    other = Node(package="controller_manager", executable="spawner")
+    spawner = Node(package="controller_manager", executable="spawner", arguments=["arm"])
+    other = Node(package="controller_manager", executable="spawner", arguments=["arm"])
     handler = RegisterEventHandler(OnProcessExit(target_action=spawner, on_exit=[other]))
     rviz = Node(package="rviz2", executable="rviz2")
     node = Node(package="joy", executable="joy_node")

@@ -3,11 +3,13 @@ from launch.substitutions import PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
+MOVED = [("odometry/filtered", "odometry/map")]
+
 
 def generate_launch_description():
     config = PathJoinSubstitution([FindPackageShare("cart_description"), "config", "ekf.yaml"])
     name = "robot_localization"
     return LaunchDescription([
         Node(package=name, executable="ekf_node", name="ekf_filter_node_odom", parameters=[config]),
-        Node(package=name, executable="ekf_node", name="ekf_global", parameters=[config]),  # <!-- expect: L117 -->
+        Node(package=name, executable="ekf_node", name="ekf_global", parameters=[config], remappings=MOVED),  # <!-- expect: L117 -->
     ])

@@ -13,7 +13,7 @@ SERVERS = [
 def generate_launch_description():
     planner = Node(package="nav2_planner", executable="planner_server", name="planner_server")
     localizer = Node(package="nav2_amcl", executable="amcl", name="amcl")
-    maps = Node(package="nav2_map_server", executable="map_server", name="map_server")
+    maps = Node(package="nav2_map_server", executable="map_server", name="map_server", parameters=["map.yaml"])
     behaviors = Node(package="nav2_behaviors", executable="behavior_server")  # <!-- expect: L117 -->
     navigator = Node(package="nav2_bt_navigator", executable="bt_navigator", name="bt_navigator")
     parameters = [{"node_names": SERVERS}]

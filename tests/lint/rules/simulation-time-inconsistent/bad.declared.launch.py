@@ -18,6 +18,7 @@ def generate_launch_description():
             package="robot_localization",
             executable="ekf_node",
             name="map",
+            remappings=[("odometry/filtered", "odometry/map")],
             parameters=[{"use_sim_time": LaunchConfiguration("use_sim_time")}],
         ),
     ])

@@ -5,6 +5,8 @@ from launch.substitutions import PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
+MOVED = [("odometry/filtered", "odometry/map")]
+
 
 def generate_launch_description():
     share = FindPackageShare("cart_description")
@@ -20,5 +22,5 @@ def generate_launch_description():
             launch_arguments={"use_sim_time": "false"}.items(),  # <!-- expect: L121 -->
         ),
         Node(package=name, executable="ekf_node", name="odom", parameters=[config, clock]),
-        Node(package=name, executable="ekf_node", name="map", parameters=[config, {"use_sim_time": False}]),  # <!-- expect: L121 -->
+        Node(package=name, executable="ekf_node", name="map", remappings=MOVED, parameters=[{"use_sim_time": False}]),  # <!-- expect: L121 -->
     ])

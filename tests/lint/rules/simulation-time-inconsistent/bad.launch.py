@@ -5,6 +5,8 @@ from launch.substitutions import PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
+MOVED = [("odometry/filtered", "odometry/map")]
+
 
 def generate_launch_description():
     share = FindPackageShare("cart_description")
@@ -15,7 +17,7 @@ def generate_launch_description():
     name = "robot_localization"
     return LaunchDescription([
         Node(package=name, executable="ekf_node", name="odom", parameters=[config, clock]),
-        Node(package=name, executable="ekf_node", name="map", parameters=[config]),  # <!-- expect: L121 -->
+        Node(package=name, executable="ekf_node", name="map", parameters=[config], remappings=MOVED),  # <!-- expect: L121 -->
         Node(package="nav2_controller", executable="controller_server", parameters=[clock]),
         Node(package="nav2_planner", executable="planner_server"),  # <!-- expect: L121 -->
     ])

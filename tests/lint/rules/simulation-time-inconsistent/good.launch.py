@@ -5,6 +5,8 @@ from launch.substitutions import PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
+MOVED = [("odometry/filtered", "odometry/map")]
+
 
 def generate_launch_description():
     share = FindPackageShare("cart_description")
@@ -19,6 +21,6 @@ def generate_launch_description():
             PythonLaunchDescriptionSource(own), launch_arguments={"use_sim_time": "true"}.items()
         ),
         Node(package=name, executable="ekf_node", name="odom", parameters=[clock]),
-        Node(package=name, executable="ekf_node", name="map", parameters=[config]),
+        Node(package=name, executable="ekf_node", name="map", parameters=[config], remappings=MOVED),
         Node(package="joy", executable="joy_node", parameters=[{"use_sim_time": False}]),
     ])

@@ -9,7 +9,8 @@ class LaunchArgumentRefused(RobotRule):
     ## What it does
     Compares the default of an argument, the value that an including launch file passes, and the value in
     ``LaunchConfigurationEquals`` and ``EqualsSubstitution`` with the ``choices`` of the argument. Also reports defaults
-    and passed values of arguments that are used as conditions, if they are neither true nor false.
+    and passed values of arguments that are used as conditions, if they are neither true nor false. If an XML launch
+    file compares an argument and its default with several values, other passed values are reported too.
 
     ## Why is this bad?
     The launch stops: "provided value is not valid". A comparison with another value is never true.

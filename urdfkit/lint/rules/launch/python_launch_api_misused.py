@@ -23,6 +23,8 @@ class PythonLaunchApiMisused(RobotRule):
     - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
     - lists without brackets, unknown values of ``output``, and ``items`` without a call
     - calls of the file's own functions that lack an argument
+    - the text of a launch argument that is taken as a truth value, or compared with one
+    - launch files in another format than the class that loads them
 
     ## Why is this bad?
     The launch file stops with an ImportError or a TypeError before it starts a node.

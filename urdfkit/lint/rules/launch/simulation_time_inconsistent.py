@@ -26,7 +26,7 @@ class SimulationTimeInconsistent(RobotRule):
     def generate_launch_description():
         clock = {"use_sim_time": True}
         odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
-        map = Node(package="robot_localization", executable="ekf_node", name="ekf_map")
+        map = Node(package="robot_localization", executable="ukf_node", name="ukf_map")
         return LaunchDescription([odom, map])
     ```
 
@@ -39,7 +39,7 @@ class SimulationTimeInconsistent(RobotRule):
     def generate_launch_description():
         clock = {"use_sim_time": True}
         odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
-        map = Node(package="robot_localization", executable="ekf_node", name="ekf_map", parameters=[clock])
+        map = Node(package="robot_localization", executable="ukf_node", name="ukf_map", parameters=[clock])
         return LaunchDescription([odom, map])
     ```
     """

@@ -1,0 +1,47 @@
+"""L126 node-arguments-missing."""
+
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class NodeArgumentsMissing(RobotRule):
+    """A node that needs arguments is started without them.
+
+    ## What it does
+    Checks the launch files for programs that stop without arguments: in ROS 1 ``map_server``, ``spawn_model``, the
+    spawner of controllers, ``rosbag play``, the programs of ``topic_tools`` and ``static_transform_publisher``; in
+    ROS 2 the spawner of controllers and ``spawn_entity.py``, ``parameter_bridge`` and ``create`` without parameters,
+    and ``map_server`` without ``yaml_filename``.
+
+    ## Why is this bad?
+    The node prints how it is used and exits, or waits without effect.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        return LaunchDescription([Node(package="controller_manager", executable="spawner")])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        return LaunchDescription([Node(package="controller_manager", executable="spawner", arguments=["drive"])])
+    ```
+    """
+
+    code = "L126"
+    name = "node-arguments-missing"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each node without the arguments that it needs."""
+        from urdfkit.lint.facts.nodes.needed_arguments import nodes_without_arguments
+
+        for source, place, message in nodes_without_arguments(model):
+            yield self.at_span(source.span(*place), message)
