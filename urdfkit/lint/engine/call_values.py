@@ -42,7 +42,7 @@ def _moved(finding: Finding, span: Span) -> Finding:
 def _written(finding: Finding, model: Model) -> Span | None:
     """Return the span of the attribute whose literal value a finding is about: of a macro call, or of a property.
 
-    A property is one that only the macro call uses.
+    Only the macro call uses the property.
     """
     from urdfkit.lint.facts.root_cause import value_of
 

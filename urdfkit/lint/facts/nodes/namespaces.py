@@ -34,7 +34,7 @@ def inside(place: LaunchPlace, element: LaunchAction) -> LaunchPlace:
 
 
 def _entered(place: LaunchPlace, element: LaunchAction, space: Named | None) -> LaunchPlace:
-    """Return the place of what is inside an element."""
+    """Return the place of the children of an element with a namespace."""
     is_conditional = place.is_conditional or "if" in element.attributes or "unless" in element.attributes
     if space is None:
         return LaunchPlace(place.namespace, place.spaced_by, is_conditional)

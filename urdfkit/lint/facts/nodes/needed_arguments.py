@@ -40,7 +40,7 @@ _BY_PARAMETER = ("nav2_map_server",)
 
 
 def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
-    """Yield launch file, place and message of each node that lacks what it needs."""
+    """Yield launch file, place and message of each node without its arguments."""
     for source, tag in tags(ros1_files(model), "node"):
         package, program, arguments = (
             tag.attributes[name].value.strip() if name in tag.attributes else "" for name in ("pkg", "type", "args")
@@ -55,7 +55,7 @@ def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, i
 
 
 def _of_ros2(node: StartedNode) -> str:
-    """Return what a node of ROS 2 lacks; empty if it has it, or may have it."""
+    """Return the message for a node of ROS 2 without its arguments; empty for other nodes."""
     found = _ROS2.get((node.package, node.program))
     if found is None or node.parameters is None:
         return ""

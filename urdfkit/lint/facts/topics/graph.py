@@ -134,8 +134,8 @@ def _of_nodes(model: Model) -> Iterator[tuple[str, str]]:
                 if one.kind and re.search(pattern, one.kind):
                     yield f"{one.name}/{topic}", kind
     for node in launched_nodes(model):
-        known = topics_of(node.package, node.program)
-        is_listed = known is not None or node.package in _WITHOUT_SENSORS.split()
-        listed = tuple(known.published.items()) if known is not None else ()
+        topics = topics_of(node.package, node.program)
+        is_listed = topics is not None or node.package in _WITHOUT_SENSORS.split()
+        listed = tuple(topics.published.items()) if topics is not None else ()
         for topic, kind in listed if is_listed else own_publications(model, node.package) or ():
             yield remapped(node, topic), kind

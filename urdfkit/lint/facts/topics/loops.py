@@ -62,8 +62,8 @@ def published_together(model: Model) -> Iterator[tuple[LaunchedNode, str, str]]:
     seen: dict[tuple[str, str], LaunchedNode] = {}
     for node in launched_nodes(model):
         topics = topics_of(node.package, node.program)
-        is_known = topics is not None and node.namespace is not None and not node.has_more_remappings
-        for topic, type in topics.published.items() if topics is not None and is_known else ():
+        is_resolved = topics is not None and node.namespace is not None and not node.has_more_remappings
+        for topic, type in topics.published.items() if topics is not None and is_resolved else ():
             used = f"{node.namespace}/{remapped(node, topic)}".strip("/")
             is_computed = re.search(r"[${}]", used) is not None
             is_computed |= _is_swapped(node, topic)

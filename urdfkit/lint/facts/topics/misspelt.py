@@ -175,8 +175,8 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
     filtered = {
         remapped(node, topic)
         for node in launched_nodes(model)
-        if node.package == "robot_localization" and (known := topics_of(node.package, node.program)) is not None
-        for topic in known.published
+        if node.package == "robot_localization" and (own := topics_of(node.package, node.program)) is not None
+        for topic in own.published
     }
     for mention in read:
         is_all = closed[mention.type]

@@ -12,7 +12,7 @@ class HardwareInSimulation(RobotRule):
     simulated, and Gazebo must not have the condition that it is not. Included files with both are not checked.
 
     ## Why is this bad?
-    The condition is inverted: drivers look for devices that do not exist, and on the robot they are missing.
+    The condition is inverted: drivers start without their devices, and the robot starts without its drivers.
 
     ## Example
     ```python
