@@ -54,20 +54,27 @@ def _rolling(model: Model) -> Iterator[Wheel]:
         if joint.type != "continuous" or "wheel" not in name.lower() or CASTER.search(name):
             continue
         radius = _radius(joint, model)
-        wheel = wheel_of(model, joint, None) if radius is not None and not is_lifted(joint, parents) else None
+        wheel = wheel_of(model, joint, None) if radius is not None and not is_lifted(joint, parents, model) else None
         if radius is not None and wheel is not None and abs(wheel.axis[2]) < _LEVEL * max(hypot(*wheel.axis), 1e-9):
             yield Wheel(joint, None, joint.name, wheel.place, wheel.axis, (radius,), wheel.middles)
 
 
-def is_lifted(joint: Joint, parents: dict[str | None, Joint]) -> bool:
-    """Return whether a joint above this one, or a prismatic one, moves its child link up or down."""
+def is_lifted(joint: Joint, parents: dict[str | None, Joint], model: Model) -> bool:
+    """Return whether a joint above this one can move it up or down; a steering joint, with a vertical axis, cannot."""
     seen: set[str | None] = set()
     while joint.parent in parents and joint.parent not in seen:
         seen.add(joint.parent)
         joint = parents[joint.parent]
-        if joint.is_movable and joint.type != "continuous":
+        if joint.is_movable and joint.type != "continuous" and not _steers(joint, model):
             return True
     return False
+
+
+def _steers(joint: Joint, model: Model) -> bool:
+    frame, axis = model.frames.get(joint.child or ""), unit(joint.axis)
+    if joint.type != "revolute" or frame is None or axis is None:
+        return False
+    return abs(rotate(frame.rotation, axis)[2]) > _ALONG
 
 
 def _radius(joint: Joint, model: Model) -> float | None:

@@ -6,6 +6,7 @@ from math import hypot
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
+from urdfkit.record import record
 
 _TOO_SMALL = 0.6
 """Smallest accepted ratio of the radius to the shorter half side of the base."""
@@ -13,16 +14,38 @@ _TOO_SMALL = 0.6
 _TOO_LARGE = 2.5
 """Largest accepted ratio of the radius to the distance of the farthest corner of the base."""
 
+_UNCOVERED = 0.25
+"""Largest accepted ratio of what a footprint leaves uncovered at one end to the length of the base."""
+
+_ENDS = (("front", 0, 1.0), ("rear", 0, -1.0), ("left side", 1, 1.0), ("right side", 1, -1.0))
+
+
+@record
+class _Size:
+    """The box around the base, seen from above: lowest and highest x and y [m], and distance of the farthest corner."""
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+    reach: float
+
+    @property
+    def half(self) -> float:
+        """Half of the shorter side [m]."""
+        return min(self.high[0] - self.low[0], self.high[1] - self.low[1]) / 2.0
+
 
 class CostmapContradictsRobot(RobotRule):
     """A costmap contradicts the size of the robot, or the place of its scanner.
 
     ## What it does
-    Compares ``robot_radius`` and ``footprint`` in the parameters of costmaps with the box around the links of the robot
-    that are fixed to each other, in the frame of the root link. Reports a radius below 60 % of half the width of the
-    robot, or above 2.5 times the distance of its farthest corner. For a footprint, the first limit applies to the
-    inscribed radius and the second one to the circumscribed radius. Robots with meshes that are not found are not
-    checked.
+    Compares ``robot_radius`` and ``footprint`` in the parameters of costmaps with the box around the wheels and the
+    links that are fixed to the root link, in its frame. Reports:
+
+    - a radius below 60 % of half the width of the robot
+    - a radius, or a corner of a footprint, at more than 2.5 times the distance of the farthest corner of the robot
+    - a footprint that leaves more than a quarter of the length or width of the robot uncovered at one end
+
+    Robots with meshes that are not found are not checked.
 
     Also reports heights of obstacles that exclude each point of a level laser scanner of the robot, and a range of
     slam_toolbox or gmapping far beyond that of the scanner.
@@ -64,26 +87,42 @@ class CostmapContradictsRobot(RobotRule):
         size = _size(model) if sources and not has_other_wheels(model) else None
         if size is None:
             return
-        half, reach = size
         for source in sources:
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 polygon, value = footprint_of(node), node.find("robot_radius")
                 radius = number_of(value)
-                if polygon is not None and (inner := inscribed_radius(polygon[1])) > 0.0:
-                    outer = max(hypot(x, y) for x, y in polygon[1])
-                    what, shown = "footprint", f"extends {inner:.3g} to {outer:.3g} m"
-                    value = polygon[0]
+                if polygon is not None and inscribed_radius(polygon[1]) > 0.0:
+                    value, message = polygon[0], _footprint_message(polygon[1], size)
                 elif value is not None and radius is not None and radius > 0.0 and node.find("footprint") is None:
-                    what, shown, inner, outer = "robot_radius", f"is {radius:g} m", radius, radius
+                    is_right = _TOO_SMALL * size.half <= radius <= _TOO_LARGE * size.reach
+                    shown = f"extends {size.half:.3g} to {size.reach:.3g} m from its centre"
+                    message = "" if is_right else f"`robot_radius` is {radius:g} m, but the robot {shown}"
                 else:
                     continue
-                if value is not None and (inner < _TOO_SMALL * half or outer > _TOO_LARGE * reach):
-                    message = f"`{what}` {shown}, but the robot extends {half:.3g} to {reach:.3g} m from its centre"
+                if value is not None and message:
                     yield self.at_span(span_of(source, value), message)
 
 
-def _size(model: Model) -> tuple[float, float] | None:
-    """Return half the width of the fixed parts of the robot, and the distance of the farthest corner [m]."""
+def _footprint_message(polygon: list[tuple[float, float]], size: _Size) -> str:
+    """Return what a footprint contradicts; empty if it suits the robot."""
+    outer = max(hypot(*corner) for corner in polygon)
+    if outer > _TOO_LARGE * size.reach:
+        return (
+            f"a corner of `footprint` is {outer:.3g} m from the centre, but the robot extends only {size.reach:.3g} m"
+        )
+    for end, axis, sign in _ENDS:
+        own = max(sign * corner[axis] for corner in polygon)
+        robot = size.high[axis] if sign > 0.0 else -size.low[axis]
+        if robot - own > _UNCOVERED * (size.high[axis] - size.low[axis]):
+            where = f"{'xy'[axis]} = {sign * own:.3g} m, but the {end} of the robot is at {sign * robot:.3g} m"
+            return f"`footprint` ends at {where}"
+    return ""
+
+
+def _size(model: Model) -> _Size | None:
+    """Return the size of the base: the wheels and the fixed parts of the robot."""
+    from urdfkit.lint.facts.gazebo.rolling_wheels import rolling_wheels
+
     if model.is_incomplete or len(model.robot.roots()) != 1:
         return None
     if any(shapes_of(link) and link.name not in model.extents for link in model.robot.links):
@@ -92,6 +131,7 @@ def _size(model: Model) -> tuple[float, float] | None:
     for joint in model.robot.joints:  # Parents precede children in most files; a missed arm only widens the box.
         if joint.parent in moved:
             moved.add(joint.child)
+    moved -= {wheel.joint.child for wheel in rolling_wheels(model)}
     points = []
     for name, extent in model.extents.items():
         if name in moved or name not in model.frames:
@@ -102,5 +142,6 @@ def _size(model: Model) -> tuple[float, float] | None:
     if not points:
         return None
     sides = [[point[k] for point in points] for k in (0, 1)]
-    half = min(max(side) - min(side) for side in sides) / 2.0
-    return (half, max(hypot(point[0], point[1]) for point in points)) if half > 0.0 else None
+    low, high = (min(sides[0]), min(sides[1])), (max(sides[0]), max(sides[1]))
+    size = _Size(low, high, max(hypot(point[0], point[1]) for point in points))
+    return size if size.half > 0.0 else None

@@ -122,7 +122,7 @@ class CasterOffTheGround(RobotRule):
         parents = {joint.child: joint for joint in model.robot.joints}
         for drive in pairs_of_wheels(model):
             wheels = (*drive.left, *drive.right)
-            if any(is_lifted(wheel.joint, parents) for wheel in wheels):
+            if any(is_lifted(wheel.joint, parents, model) for wheel in wheels):
                 continue
             if any(not wheel.radii or max(wheel.radii) <= 0.0 or wheel.radii != wheels[0].radii for wheel in wheels):
                 continue

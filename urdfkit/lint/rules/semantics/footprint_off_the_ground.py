@@ -84,7 +84,7 @@ class FootprintOffTheGround(RobotRule):
         parents = {joint.child: joint for joint in model.robot.joints}
         children = [joint for joint in model.robot.joints if joint.parent == footprints[0]]
         joint = parents.get(footprints[0]) or (children[0] if len(children) == 1 else None)
-        if joint is None or joint.type != "fixed" or is_lifted(joint, parents):
+        if joint is None or joint.type != "fixed" or is_lifted(joint, parents, model):
             return
         ground = min(wheel.place[2] - wheel.radii[0] for wheel in wheels)
         radius = max(wheel.radii[0] for wheel in wheels)
