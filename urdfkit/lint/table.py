@@ -179,6 +179,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.plugin_or_sensor_unnamed", "PluginOrSensorUnnamed"),
     ("plugin", "gazebo.odometry_published_twice", "OdometryPublishedTwice"),
     ("sensor", "gazebo.sensor_type_deprecated", "SensorTypeDeprecated"),
+    ("gazebo_ros plugin", "gazebo.plugin_in_wrong_sensor", "PluginInWrongSensor"),
     ("sensor", "gazebo.sensor_type_unknown", "SensorTypeUnknown"),
     ("parameters", "gazebo.plugin_file_missing", "PluginFileMissing"),
     ("sensor plugin", "gazebo.sensor_range_invalid", "SensorRangeInvalid"),

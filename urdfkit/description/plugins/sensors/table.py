@@ -25,6 +25,25 @@ from urdfkit.description.plugins.spec import PluginSpec
 SENSORS = (*LIDARS, *CAMERAS, *MOTION, *TOUCH, *HECTOR)
 """All sensor plugins."""
 
+SENSORS_OF_LIBRARIES: dict[str, tuple[str, ...]] = {
+    "gazebo_ros_block_laser": ("ray",),
+    "gazebo_ros_bumper": ("contact",),
+    "gazebo_ros_camera": ("camera", "depth", "multicamera", "wideanglecamera"),
+    "gazebo_ros_depth_camera": ("depth",),
+    "gazebo_ros_gps_sensor": ("gps",),
+    "gazebo_ros_gpu_laser": ("gpu_ray",),
+    "gazebo_ros_imu_sensor": ("imu",),
+    "gazebo_ros_laser": ("ray",),
+    "gazebo_ros_multicamera": ("multicamera",),
+    "gazebo_ros_openni_kinect": ("depth", "openni_kinect"),
+    "gazebo_ros_range": ("ray",),
+    "gazebo_ros_ray_sensor": ("ray", "gpu_ray", "sonar"),
+    "gazebo_ros_velodyne_gpu_laser": ("gpu_ray",),
+    "gazebo_ros_velodyne_laser": ("ray",),
+}
+"""Library of Gazebo Classic → types of the ``<sensor>`` that it accepts: those of its base class, or the type that it
+casts its sensor to (gazebo_ros_pkgs, gazebo_plugins/include; velodyne_simulator, GazeboRosVelodyneLaser.h)."""
+
 BARE: dict[str, PluginSpec] = {
     **dict.fromkeys(LIDAR_TYPES, LIDAR_GZ),
     "imu": IMU_GZ,

@@ -72,11 +72,11 @@ class PluginUnknown(RobotRule):
             name = (plugin.name or "").strip()
             if name in class_names or not (class_names or "::" in name) or "$" in name:
                 continue
-            if class_names and "::" not in name and not _is_system(class_names[0]):
-                # The classes differ between versions, but all of them have a namespace.
-                yield self._finding(
-                    model, plugin, "name", f"library `{suggestion or library}` has no class `{name}`", class_names[0]
-                )
+            if class_names and not _is_system(class_names[0]) and ("::" not in name or name.endswith("System")):
+                # The classes differ between versions, but all have a namespace, and `…System` is the hardware.
+                own = [each for each in class_names if each.partition("::")[0] == name.partition("::")[0]]
+                message = f"library `{suggestion or library}` has no class `{name}`"
+                yield self._finding(model, plugin, "name", message, (own or class_names)[0])
                 continue
             expected = meant_class(name, class_names or _all_classes())
             if expected is not None and expected.lower() == name.lower():

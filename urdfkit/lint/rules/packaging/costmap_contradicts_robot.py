@@ -15,7 +15,7 @@ _TOO_LARGE = 2.5
 """Largest accepted ratio of the radius to the distance of the farthest corner of the base."""
 
 _UNCOVERED = 0.25
-"""Largest accepted ratio of what a footprint leaves uncovered at one end to the length of the base."""
+"""Largest accepted ratio of the uncovered length at one end of a footprint to the length of the base."""
 
 _ENDS = (("front", 0, 1.0), ("rear", 0, -1.0), ("left side", 1, 1.0), ("right side", 1, -1.0))
 
@@ -104,7 +104,7 @@ class CostmapContradictsRobot(RobotRule):
 
 
 def _footprint_message(polygon: list[tuple[float, float]], size: _Size) -> str:
-    """Return what a footprint contradicts; empty if it suits the robot."""
+    """Return the contradiction of a footprint with the robot; empty without one."""
     outer = max(hypot(*corner) for corner in polygon)
     if outer > _TOO_LARGE * size.reach:
         return (
