@@ -133,8 +133,9 @@ def _never_equal(node: ast.Compare, reader: LaunchReader) -> Defects:
 def _performed(node: ast.expr, reader: LaunchReader) -> bool:
     """Return whether an expression is the text of a launch argument, ``LaunchConfiguration(...).perform(context)``."""
     value = _value(node, reader)
-    is_call = isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute) and value.func.attr == "perform"
-    return is_call and _called(value.func.value, reader) == "LaunchConfiguration"
+    if not (isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute) and value.func.attr == "perform"):
+        return False
+    return _called(value.func.value, reader) == "LaunchConfiguration"
 
 
 def _truth(node: ast.expr, value: ast.expr, reader: LaunchReader) -> Defects:

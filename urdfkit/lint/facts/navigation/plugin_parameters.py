@@ -85,8 +85,8 @@ def repeated_plugins(source: Source) -> Defects:
         for name, found in seen.items():
             other = [(key, plugin) for key, plugin in found if _plain(key) != _plain(name)]
             if len(found) == 2 and len(other) == 1:
-                key, plugin = other[0]
-                yield source, plugin, f"section `{key}` has the plugin `{name}`, which another section has too"
+                section, place = other[0]
+                yield source, place, f"section `{section}` has the plugin `{name}`, which another section has too"
 
 
 def _plain(name: str) -> str:

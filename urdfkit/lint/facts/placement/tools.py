@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from math import hypot
 
 from urdfkit.description.urdf.geometry import unit
 from urdfkit.description.urdf.robot import Box, Cylinder, Joint, Vector
@@ -87,4 +88,4 @@ def _depth(shape: Box | Cylinder, centre: Vector, point: Vector) -> float:
     x, y, z = (a - b for a, b in zip(point, centre, strict=True))
     if isinstance(shape, Box):
         return min(size / 2.0 - abs(part) for size, part in zip(shape.size, (x, y, z), strict=True))
-    return min(shape.radius - (x * x + y * y) ** 0.5, shape.length / 2.0 - abs(z))
+    return min(shape.radius - hypot(x, y), shape.length / 2.0 - abs(z))

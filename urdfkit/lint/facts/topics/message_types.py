@@ -139,11 +139,11 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
             named.setdefault(key.text.strip("/").rpartition("/")[2], []).append((source, group))
         for one in declared(source):
             if "diff_drive" in one.kind.text:
-                ends = (
+                own = (
                     _End(f"{one.name}/cmd_vel", True, one.name),
                     _End(f"{one.name}/cmd_vel_unstamped", False, one.name),
                 )
-                readers += [end for end in ends if end.topic in drives]
+                readers += [end for end in own if end.topic in drives]
     for topic, kind, is_read in bridged_topics(model):
         if is_read and last(kind) in ("Twist", "TwistStamped"):
             readers.append(_End(topic, last(kind) == "TwistStamped", "parameter_bridge"))

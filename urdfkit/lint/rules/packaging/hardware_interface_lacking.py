@@ -111,10 +111,10 @@ class HardwareInterfaceLacking(RobotRule):
             if len({controller for controller, _, _ in uses}) > 1:
                 merged |= {id(finding) for _, finding, _ in uses}
                 _, finding, element = uses[0]
-                names = tuple(each.joint for _, each, _ in uses if each.joint)
+                joints = tuple(each.joint for _, each, _ in uses if each.joint)
                 help = "the controllers use another interface"
                 yield self.at(
-                    model, element, finding.message, attribute="name", joint=finding.joint, help=help, names=names
+                    model, element, finding.message, attribute="name", joint=finding.joint, help=help, names=joints
                 )
         yield from (finding for _, finding in found if id(finding) not in merged)
 

@@ -126,9 +126,9 @@ class TwinsMisplaced(RobotRule):
             help = "check the signs of the coordinates"
             yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
             break
-        for link, place, message in unmirrored_shapes(model) if not found else ():
+        for unmirrored, place, message in unmirrored_shapes(model) if not found else ():
             help = "check the sign of the offset"
-            yield self.at(model, place, message, attribute="xyz", link=link.name, help=help)
+            yield self.at(model, place, message, attribute="xyz", link=unmirrored.name, help=help)
             break
 
 
