@@ -372,3 +372,12 @@ def test_files_that_include_each_other_many_times_are_each_read_once(tmp_path):
     message = "`amcl` and `amcl` both publish the transform from the map frame to the odometry frame"
     expected = {(f"{own}.launch", line, message) for own in "ab" for line in range(3, 83)}
     assert set(found(cart, "L124")) == expected
+
+
+@pytest.mark.parametrize("needed", [(), ("ros_gz_bridge",)])
+def test_the_package_of_a_node_in_yaml_is_a_dependency(tmp_path, needed):
+    cart = package(tmp_path / "cart", "ament_cmake", *needed)
+    node = "launch:\n  - node:\n      pkg: ros_gz_bridge\n      exec: parameter_bridge\n      name: bridge\n"
+    write(cart / "launch/bridge.launch.yaml", node)
+    expected = [("bridge.launch.yaml", 3, "missing dependency on `ros_gz_bridge`")]
+    assert found(cart, "K956") == ([] if needed else expected)

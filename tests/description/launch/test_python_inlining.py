@@ -29,6 +29,9 @@ def include(package, name="robot.launch.py", **arguments):
             "def one(n):\n    return N(n)\ndef setup(context):\n    return [one(3)]\na = Opaque(function=setup)",
             "return [N(3)]",
         ),
+        ("def one(p, *n):\n    return Join([p, *n])\na = one('b', 'c', 'd')", "a = Join(['b', 'c', 'd'])"),
+        ("def one(p, *n):\n    return join(p, *n)\na = one('b')", "a = join('b')"),
+        ("def f(*n):\n    return N(n)\na = f(1)", "a = N((1,))"),
         ("a = [Node(n) for n in ('x', 'y')]", "a = [Node('x'), Node('y')]"),
     ],
 )
@@ -43,7 +46,6 @@ def test_a_call_is_what_the_function_returns(text: str, written_out: str) -> Non
     "text",
     [
         "def f(n):\n    if n:\n        return N(n)\n    return M(n)\na = f(1)",
-        "def f(*n):\n    return N(n)\na = f(1)",
         "def f(n):\n    return N(n)\na = f(*names)",
         "def f(n):\n    return N(n)\na = f(1, 2)",
         "def f(n):\n    return N(n)\na = f(m=2)",

@@ -74,7 +74,7 @@ def _is_simple(function: ast.FunctionDef) -> bool:
         and last.value is not None
         and None not in assigned
         and len(assigned) == len(set(assigned))
-        and not (function.decorator_list or function.args.vararg or function.args.posonlyargs)
+        and not (function.decorator_list or function.args.posonlyargs)
         and not any(isinstance(node, (ast.Lambda, ast.NamedExpr, ast.Await, ast.Yield)) for node in ast.walk(function))
     )
 
@@ -155,6 +155,30 @@ class _Substitution(ast.NodeTransformer):
         value = self._values.get(node.id) if isinstance(node.ctx, ast.Load) else None
         return node if value is None else copy.deepcopy(value)
 
+    def visit_List(self, node: ast.List) -> ast.AST:
+        self.generic_visit(node)
+        node.elts = _without_stars(node.elts)
+        return node
+
+    def visit_Tuple(self, node: ast.Tuple) -> ast.AST:
+        self.generic_visit(node)
+        node.elts = _without_stars(node.elts)
+        return node
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        self.generic_visit(node)
+        node.args = _without_stars(node.args)
+        return node
+
+
+def _without_stars(items: list[ast.expr]) -> list[ast.expr]:
+    """Return items with those of lists and tuples after a star in their place."""
+    found: list[ast.expr] = []
+    for item in items:
+        inner = item.value if isinstance(item, ast.Starred) else None
+        found += inner.elts if isinstance(inner, (ast.List, ast.Tuple)) else [item]
+    return found
+
 
 def _values(function: ast.FunctionDef, call: ast.Call) -> dict[str, ast.expr] | None:
     """Return the values of the parameters in a call; None if the call is computed or does not fit."""
@@ -179,4 +203,8 @@ def _values(function: ast.FunctionDef, call: ast.Call) -> dict[str, ast.expr] | 
         keys: list[ast.expr | None] = [ast.copy_location(ast.Constant(word.arg), word) for word in rest]
         items = ast.Dict(keys, [word.value for word in rest])
         values[arguments.kwarg.arg] = ast.copy_location(items, rest[0] if rest else call)
-    return values if len(call.args) <= len(plain) and all(name in values for name in named) else None
+    if arguments.vararg is not None:
+        others = call.args[len(plain) :]
+        values[arguments.vararg.arg] = ast.copy_location(ast.Tuple(others, ast.Load()), others[0] if others else call)
+    fits = arguments.vararg is not None or len(call.args) <= len(plain)
+    return values if fits and all(name in values for name in named) else None

@@ -27,6 +27,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K960", ""), "line", ("M112", "unspawned")),
     (("K967", ""), "line", ("K956", "")),
     (("K969", ""), "line", ("K977", "")),
+    (("K971", ""), "line", ("K956", "")),
     (("K971", ""), "line", ("K974", "")),
     (("K971", ""), "line", ("K977", "")),
     (("K977", ""), "line", ("K980", "")),

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from urdfkit.description.packages.existence import exists
+from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import XmlError
@@ -131,8 +131,9 @@ def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] 
                 installs.append(command)
                 end = next((at for at, word in enumerate(words) if word in OPTIONS), len(words))
                 names.update(word.strip("/").partition("/")[0] for word in words[1:end])
-            elif command.name == "install":
+            elif command.name == "install":  # A folder among files has its own finding.
                 names.update(word.partition("/")[0] for word in words[1:] if "/" in word and "$" not in word)
+                names.update(word for word in words[1:] if is_folder(files.folder / word))
     if files.setup is not None:
         names.update(re.findall(r"[\"']([\w-]+)(?:/|[\"'])", files.setup.text))
         if "walk" in files.setup.text or "rglob" in files.setup.text:

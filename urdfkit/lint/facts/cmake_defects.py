@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import pairwise
+from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
+from urdfkit.lint.facts.build_files import OPTIONS, BuildFiles, CMakeCommand
 from urdfkit.lint.finding import Severity
 from urdfkit.record import record
 
@@ -92,6 +94,11 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
             ["PROGRAMS"],
         ):
             continue
+        end = next((at for at, word in enumerate(words) if word in OPTIONS), len(words))
+        for word, start in command.words[1:end] if words[0] != "DIRECTORY" else ():
+            if is_folder(Path(source.file).parent / word):
+                message = f"{command.name}({words[0]}) does not install folder `{word}`; write install(DIRECTORY …)"
+                yield BuildDefect(source, start, word, message)
         others = [word for word in words if word.startswith("${") and word[2:-1] not in _CATKIN]
         if "DESTINATION" not in words and "TYPE" not in words and not others:
             yield BuildDefect(source, command.start, command.name, f"{command.name}({words[0]}) has no DESTINATION")
@@ -162,7 +169,8 @@ def _order(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     for tool in _TOOLS:
         places = [at for at, name in enumerate(names) if name == tool]
         for first, second in pairwise(places):
-            if not {"if", "else", "elseif", "endif", "return"} & {*names[first:second]}:
+            is_early = tool == "catkin_package" and bool(catkin) and first < catkin[0]
+            if not is_early and not {"if", "else", "elseif", "endif", "return"} & {*names[first:second]}:
                 yield BuildDefect(
                     source, every[second].start, tool, f"{tool}() is called twice; remove one of the calls"
                 )

@@ -12,6 +12,7 @@ from urdfkit.record import record
 
 _FIND = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
 _USES = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|<(?:node|composable_node)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"
+_YAML_NODE = r"^[ \t]*(?:-[ \t]+)?pkg:[ \t]*[\"']?([\w-]+)[\"']?[ \t]*(?:#.*)?$"
 _XACRO = r"\bcommand\s*=\s*[\"'](xacro)\s|\$\(command\s+[\"'](xacro)\s"
 _XACRO_WORD = r"[\"']xacro(?:\.py)?[\"'\s]"
 """Calls of xacro by its name alone."""
@@ -73,6 +74,9 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
         for at in re.finditer(_USES, uncommented(source)):
             group = 1 if at[1] is not None else 2
             yield at[group], at.start(group), at.end(group)
+        is_yaml = not source.file.endswith((".launch", ".xml"))
+        for at in re.finditer(_YAML_NODE, source.text, re.MULTILINE) if is_yaml else ():
+            yield at[1], at.start(1), at.end(1)
         return
     if (tree := parsed(source)) is None:
         return
