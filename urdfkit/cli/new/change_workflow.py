@@ -150,10 +150,10 @@ def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage
 
     def findings_with(overlay: dict[str, str]) -> list[Finding]:
         # The rule about dependencies reads package.xml from disk, not its new text. The placement reports overlaps,
-        # and the user may choose a place inside of a body.
+        # and the user may choose a place inside of a body or beside it.
         adds_dependency = any(alteration.path.name == "package.xml" for alteration in alterations)
         options = Options(
-            ignore=("S915", "K956") if adds_dependency else ("S915",),
+            ignore=("J427", "S915", "K956") if adds_dependency else ("J427", "S915"),
             arguments=model.arguments,
             package_path=folders,
             texts=overlay,

@@ -52,8 +52,8 @@ class Place:
 def misplaced(model: Model) -> Iterator[Place]:
     """Yield the place that is off the surface of its parent link, if all other joints are on the surface of theirs.
 
-    Compares joints that turn or slide within limits, and fixed joints with such joints below. The joints of one macro
-    count as one.
+    Compares joints that turn or slide within limits, and fixed joints with such joints below, but not the joints of
+    steered wheels, which are beside the chassis. The joints of one macro count as one.
     """
     places: dict[object, list[Place]] = {}
     for place in _places(model):
@@ -67,11 +67,12 @@ def misplaced(model: Model) -> Iterator[Place]:
 
 
 def _places(model: Model) -> Iterator[Place]:
-    carriers = _carriers(model)
+    carriers, axles = _carriers(model), {joint.parent for joint in model.robot.joints if joint.type == "continuous"}
     for joint in model.robot.joints:
         is_compared = joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers)
         parent, link = model.extents.get(joint.parent or ""), model.robot.link_by_name.get(joint.parent or "")
-        if not is_compared or parent is None or link is None:
+        is_steering = joint.type == "revolute" and joint.child in axles
+        if not is_compared or is_steering or parent is None or link is None:
             continue
         if any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
             continue
