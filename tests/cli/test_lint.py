@@ -245,7 +245,7 @@ def test_of_several_paths_those_that_are_not_there_do_not_hide_the_others(packag
     assert out.endswith("Found 3 errors (2 fixable with --fix).\n")
     assert [line[:40] for line in err.splitlines()] == [
         "urdfkit: no such file or folder: none.ur",
-        "urdfkit: no robot description (.urdf or ",
+        "urdfkit: no robot description (a .urdf o",
     ]
     assert main(["lint", "--diff", "none.urdf", "urdf/bad.urdf.xacro"]) == 2
     out, err = capsys.readouterr()

@@ -150,7 +150,7 @@ def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage
 
     def findings_with(overlay: dict[str, str]) -> list[Finding]:
         # The rule about dependencies reads package.xml from disk, not its new text. The placement reports overlaps,
-        # and the user may choose a place inside of a body or beside it.
+        # and the user may choose a place inside of a body or next to it.
         adds_dependency = any(alteration.path.name == "package.xml" for alteration in alterations)
         options = Options(
             ignore=("J427", "S915", "K956") if adds_dependency else ("J427", "S915"),

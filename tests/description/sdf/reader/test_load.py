@@ -492,7 +492,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ("<include><uri>model://box</uri><placement_frame>l</placement_frame></include>", "requires a <pose>"),
         (
             '<include merge="true"><uri>model://box</uri></include>',
-            'merge="true" is supported for models inside models only',
+            'merge="true" is supported only for models inside models',
         ),
         ('<light name="l" type="sopt"/>', "unknown type `sopt` of light `l`; did you mean `spot`?"),
         ("<model/>", "<model> lacks its name"),
