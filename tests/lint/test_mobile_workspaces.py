@@ -275,6 +275,15 @@ MISTAKES = [
     ),
     (
         ROS1,
+        "navigate.launch",
+        'to="move_base/cmd_vel"',
+        'to="nav/cmd_vel"',
+        "K980",
+        9,
+        "no node subscribes to the velocity commands on `nav/cmd_vel`",
+    ),
+    (
+        ROS1,
         "start.launch",
         'value="slam"',
         'value="mapping"',

@@ -60,6 +60,7 @@ _OF_ROS1 = {
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
 
 _COMMANDS = {
+    "move_base": "cmd_vel",
     "nav2_behaviors": "cmd_vel",
     "nav2_controller": "cmd_vel",
     "nav2_recoveries": "cmd_vel",
