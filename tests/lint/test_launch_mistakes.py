@@ -157,7 +157,7 @@ LOADS = """<launch>
     <arg name="paused" value="$(arg paused)"/>
   </include>
   <rosparam file="$(find cart)/config/speeds.yaml"{subst_value}/>
-  <group ns="robot_description_kinematics">
+  <group ns="robot_description_{names}">
     <rosparam command="load" file="$(find cart)/config/{solver}.yaml"/>
   </group>
   <group ns="move_group/planning_pipelines/ompl">
@@ -174,6 +174,7 @@ CORRECT = {
     "paused": "true",
     "subst_value": ' subst_value="true"',
     "solver": "kinematics",
+    "names": "kinematics",
     "pipeline": "ompl",
     "unpause": " -unpause",
 }
@@ -191,6 +192,14 @@ CORRECT = {
             {"solver": "limits"},
             9,
             "limits.yaml has no `kinematics_solver`, which MoveIt reads from `robot_description_kinematics`",
+        ),
+        (
+            {"names": "kinematic"},
+            9,
+            (
+                "MoveIt reads the solvers of kinematics.yaml from `robot_description_kinematics`, "
+                "not from `robot_description_kinematic`"
+            ),
         ),
     ],
 )

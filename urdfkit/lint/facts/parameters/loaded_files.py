@@ -56,6 +56,10 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
             is_other = re.search(r"(?m)^[ \t]*[\w/]+[ \t]*:", text) and not any(word in text for word in expected)
             if namespace.endswith(f"robot_description{end}") and is_other:
                 yield file, f"{name} has no `{expected[0]}`, which MoveIt reads from `robot_description{end}`"
+        is_elsewhere = re.search(r"(?:^|/)robot_description_\w+$", namespace) and not namespace.endswith("_kinematics")
+        if is_elsewhere and "kinematics_solver:" in text:
+            read = "`robot_description_kinematics`"
+            yield file, f"MoveIt reads the solvers of {name} from {read}, not from `{namespace.rpartition('/')[2]}`"
 
 
 def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
