@@ -45,6 +45,16 @@ def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str
                 yield word.start, word.name, message + Suggestion(near, word.name)
 
 
+def names_as_files(node: Started) -> Iterator[tuple[int, str, str]]:
+    """Yield offset, text and message of a file that is no path but the name of a topic or parameter."""
+    source = {"spawn_model": "-param", "spawn_entity.py": "-topic", "create": "-topic"}.get(node.program)
+    for option, word in zip(node.arguments, node.arguments[1:], strict=False):
+        if source is None or option is None or word is None or option.name != "-file":
+            continue
+        if word.name.endswith("description"):
+            yield word.start, word.name, f"`-file` requires the path of a file; write `{source} {word.name}`"
+
+
 def _lowest(model: Model) -> float | None:
     """Return the height of the lowest point of the links in the root link [m]; None if a size is unknown."""
     heights = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import chain
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
@@ -48,9 +49,9 @@ class SpawnArgumentMisspelt(RobotRule):
     ## What it does
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) and
     ``spawner`` (controller_manager) for misspelt options, for options of another spawner, and for misspellings of
-    the topic or parameter ``robot_description`` and of joints. The spawners of Gazebo Classic need a source of the
-    description. Also reports a controller manager or a description in a namespace if the launch file
-    starts the robot and no file names a namespace.
+    the topic or parameter ``robot_description`` and of joints, and for its name in place of a file. The spawners of
+    Gazebo Classic need a source of the description. Also reports a controller manager or a description in a namespace
+    if the launch file starts the robot and no file names a namespace.
 
     Python launch files are parsed, not executed.
 
@@ -84,7 +85,11 @@ class SpawnArgumentMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid argument."""
         from urdfkit.lint.facts.control.launched_nodes import launches, started
-        from urdfkit.lint.facts.gazebo.spawned_models import spawned_in_the_ground, undefined_parameters
+        from urdfkit.lint.facts.gazebo.spawned_models import (
+            names_as_files,
+            spawned_in_the_ground,
+            undefined_parameters,
+        )
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
 
         for source in launches(model):
@@ -104,8 +109,8 @@ class SpawnArgumentMisspelt(RobotRule):
                         span, names = source.span(start, start + len(text)), (node.program,)
                         yield self.at_span(span, message, kind="option", names=names)
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
-                of_robot = (*spawned_in_the_ground(node, model), *undefined_parameters(node, model)) if is_own else ()
-                for start, text, message in of_robot:
+                of_robot = (spawned_in_the_ground(node, model), undefined_parameters(node, model), names_as_files(node))
+                for start, text, message in chain(*of_robot) if is_own else ():
                     yield self.at_span(source.span(start, start + len(text)), message, severity="warning")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (
