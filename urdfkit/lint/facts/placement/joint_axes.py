@@ -40,18 +40,15 @@ def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
     """Yield each joint that turns about the same line as the moving joint that carries it: upper joint, lower joint.
 
     A joint that carries several moving joints, such as the waist of a humanoid, has an effect of its own. Joints
-    without <origin> are not placed yet.
+    without <origin> are not placed yet, and the place of one with an undefined property is unknown.
     """
     carriers = [(joint, turning_joint_above(joint, model)) for joint in model.robot.joints if joint.is_movable]
     counts = Counter(above[0].name for _, above in carriers if above is not None)
     for joint, above in carriers:
-        axis = unit(joint.axis)
-        if (
-            joint.type not in _TURNING
-            or joint.mimic is not None
-            or axis is None
-            or joint.element.find("origin") is None
-        ):
+        axis, origin = unit(joint.axis), joint.element.find("origin")
+        if joint.type not in _TURNING or joint.mimic is not None or axis is None or origin is None:
+            continue
+        if model.is_unresolved(origin, "xyz") or model.is_unresolved(origin, "rpy"):
             continue
         if above is None or above[0].mimic is not None or counts[above[0].name] > 1:
             continue

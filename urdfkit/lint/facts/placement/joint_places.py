@@ -77,6 +77,8 @@ def _places(model: Model) -> Iterator[Place]:
         if any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
             continue
         element = joint.element.find("origin") or joint.element
+        if model.is_unresolved(element, "xyz"):
+            continue
         child = model.extents.get(joint.child or "")
         overlap = _overlap(joint, parent, child) if child is not None else 0.0
         yield Place(joint, element, depth(joint.origin.xyz, parent), overlap, parent.diagonal)
