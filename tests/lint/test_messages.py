@@ -516,7 +516,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         },
         [
             (
-                "config/c.yaml:1: warning: `arm` is in namespace `/robot`, but its spawner in launch/a.launch:3 has no"
+                "launch/a.launch:2: warning: `arm` is in namespace `/robot`, but its spawner in launch/a.launch:3 has no"
                 " namespace"
             )
         ],
