@@ -148,7 +148,7 @@ def test_what_is_named_outside_is_not_used(lint, kind) -> None:
     assert outside(opened, lint.secret) == []
     assert "classified" not in output
     assert kind == "an optional variable" or [each for each in findings if each["severity"] == "error"]
-    is_hidden = any("'SECRET' is not read, as --confined hides" in each["message"] for each in findings)
+    is_hidden = any("'SECRET' is not read, because --confined hides" in each["message"] for each in findings)
     assert is_hidden is (kind in ("a variable", "an optional variable"))
 
 
