@@ -47,6 +47,8 @@ def transpose(rotation: Rotation) -> Rotation:
 
 def product(first: Rotation, second: Rotation) -> Rotation:
     """Return first · second."""
+    if first is UNROTATED or second is UNROTATED:
+        return second if first is UNROTATED else first
     a, b, c = (rotate(first, column) for column in transpose(second))
     return transpose((a, b, c))
 

@@ -48,8 +48,6 @@ def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
         axis, origin = unit(joint.axis), joint.element.find("origin")
         if joint.type not in _TURNING or joint.mimic is not None or axis is None or origin is None:
             continue
-        if model.is_unresolved(origin, "xyz") or model.is_unresolved(origin, "rpy"):
-            continue
         if above is None or above[0].mimic is not None or counts[above[0].name] > 1:
             continue
         carrier, frame = above
@@ -60,5 +58,6 @@ def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
         along = sum(a * b for a, b in zip(frame.translation, other, strict=True))
         nearest: Vector = (along * other[0], along * other[1], along * other[2])
         cosine = abs(sum(a * b for a, b in zip(turned, other, strict=True)))
-        if cosine > _PARALLEL and dist(nearest, frame.translation) < _DISTANCE:
+        is_on_line = cosine > _PARALLEL and dist(nearest, frame.translation) < _DISTANCE
+        if is_on_line and not (model.is_unresolved(origin, "xyz") or model.is_unresolved(origin, "rpy")):
             yield carrier, joint

@@ -38,15 +38,15 @@ class Place:
         joint: the joint.
         element: its ``<origin>``.
         depth: depth of the joint below the surface of the parent link; negative outside [m].
-        overlap: part of the child link that is inside of the parent link.
-        size: extent of the parent link [m].
+        parent: extent of the parent link.
+        child: extent of the child link; None without shapes.
     """
 
     joint: Joint
     element: Element
     depth: float
-    overlap: float
-    size: float
+    parent: Extent
+    child: Extent | None
 
 
 def misplaced(model: Model) -> Iterator[Place]:
@@ -55,33 +55,36 @@ def misplaced(model: Model) -> Iterator[Place]:
     Compares joints that turn or slide within limits, and fixed joints with such joints below, but not the joints of
     steered wheels, which are next to the chassis. The joints of one macro count as one.
     """
-    places: dict[object, list[Place]] = {}
+    places, off = set[object](), dict[object, Place]()
     for place in _places(model):
-        places.setdefault(place.element.origin.position, []).append(place)
-    off = [each for each in places.values() if any(abs(one.depth) > _EXACT for one in each)]
-    if len(off) == 1 and len(places) > _FEWEST:
-        one = max(off[0], key=lambda each: abs(each.depth))
-        is_outside = -one.depth >= max(_FAR, _PART * one.size)
-        if is_outside or (one.depth >= max(_DEEP, _PART * one.size) and one.overlap >= _OVERLAP):
+        position = place.element.origin.position
+        places.add(position)
+        if abs(place.depth) > max(_EXACT, abs(off[position].depth) if position in off else 0.0):
+            off[position] = place
+            if len(off) > 1:
+                return
+    one = next(iter(off.values()), None)
+    if one is not None and len(places) > _FEWEST and not model.is_unresolved(one.element, "xyz"):
+        size = one.parent.diagonal
+        is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None
+        if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
 
 
 def _places(model: Model) -> Iterator[Place]:
     carriers, axles = _carriers(model), {joint.parent for joint in model.robot.joints if joint.type == "continuous"}
+    extents = model.extents
     for joint in model.robot.joints:
         is_compared = joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers)
-        parent, link = model.extents.get(joint.parent or ""), model.robot.link_by_name.get(joint.parent or "")
+        parent, link = extents.get(joint.parent or ""), model.robot.link_by_name.get(joint.parent or "")
         is_steering = joint.type == "revolute" and joint.child in axles
         if not is_compared or is_steering or parent is None or link is None:
             continue
         if any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
             continue
         element = joint.element.find("origin") or joint.element
-        if model.is_unresolved(element, "xyz"):
-            continue
-        child = model.extents.get(joint.child or "")
-        overlap = _overlap(joint, parent, child) if child is not None else 0.0
-        yield Place(joint, element, depth(joint.origin.xyz, parent), overlap, parent.diagonal)
+        child = extents.get(joint.child or "")
+        yield Place(joint, element, depth(joint.origin.xyz, parent), parent, child)
 
 
 def _carriers(model: Model) -> set[str]:
@@ -104,15 +107,15 @@ def depth(point: Vector, extent: Extent) -> float:
     return min(min(x - a, b - x) for a, x, b in zip(extent.low, point, extent.high, strict=True))
 
 
-def _overlap(joint: Joint, parent: Extent, child: Extent) -> float:
+def _overlap(place: Place) -> float:
     """Return the part of the box around a child link that is inside of the box around its parent link."""
-    frame, part, whole = Frame().moved(joint.origin), 0.0, 0.0
-    for shape, pose in child.shapes:
+    frame, part, whole = Frame().moved(place.joint.origin), 0.0, 0.0
+    for shape, pose in place.child.shapes if place.child is not None else ():
         at = frame.moved(pose)
         low, high = box_around(shape, type(pose)(at.translation, _rpy(at)))
         sides = [
             (max(min(b, d) - max(a, c), 0.0), d - c)
-            for a, b, c, d in zip(parent.low, parent.high, low, high, strict=True)
+            for a, b, c, d in zip(place.parent.low, place.parent.high, low, high, strict=True)
         ]
         part += sides[0][0] * sides[1][0] * sides[2][0]
         whole += sides[0][1] * sides[1][1] * sides[2][1]
