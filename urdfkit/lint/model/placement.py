@@ -83,6 +83,18 @@ class Extent:
         (a, b, c), (x, y, z) = self.low, self.high
         return sqrt((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2)
 
+    def corners_in(self, frame: Frame) -> list[Vector]:
+        """Return the corners of the bounding box in another frame [m].
+
+        Args:
+            frame: the frame of the link there.
+        """
+        box = (self.low, self.high)
+        parts = [(box[n & 1][0], box[n >> 1 & 1][1], box[n >> 2][2]) for n in range(8)]
+        moved = [rotate(frame.rotation, part) for part in parts]
+        x, y, z = frame.translation
+        return [(x + a, y + b, z + c) for a, b, c in moved]
+
     def radius(self, point: Vector) -> float:
         """Return the distance from `point` to the farthest point of all shapes [m]."""
         return max(self.reaches(point))

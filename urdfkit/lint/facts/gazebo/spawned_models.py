@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.launched_nodes import Started
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
@@ -57,11 +56,6 @@ def names_as_files(node: Started) -> Iterator[tuple[int, str, str]]:
 
 def _lowest(model: Model) -> float | None:
     """Return the height of the lowest point of the links in the root link [m]; None if a size is unknown."""
-    heights = []
-    for name, extent in model.extents.items():
-        frame = model.frames.get(name)
-        for corner in range(8) if frame is not None else ():
-            x, y, z = ((extent.high if corner >> k & 1 else extent.low)[k] for k in range(3))
-            if frame is not None:
-                heights.append(frame.moved(Pose((x, y, z))).translation[2])
-    return min(heights) if heights else None
+    frames = model.frames
+    heights = [z for name, each in model.extents.items() if name in frames for _, _, z in each.corners_in(frames[name])]
+    return min(heights, default=None)

@@ -141,7 +141,7 @@ def _performed(node: ast.expr, reader: LaunchReader) -> bool:
 def _truth(node: ast.expr, value: ast.expr, reader: LaunchReader) -> Defects:
     """Yield an expression that takes the text of a launch argument as a truth value."""
     if _performed(value, reader):
-        yield node, 'this text is true unless it is empty, also `false`; compare it, such as `.lower() == "true"`'
+        yield node, 'this text is true even if it is `false`; compare it, for example `.lower() == "true"`'
     elif _called(value, reader) == "LaunchConfiguration":
         yield node, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"
 

@@ -1,6 +1,6 @@
 """Joints of the groups of an SRDF, compared with the projections of planners and with the names of the groups.
 
-Source: moveit_planners/ompl, model_based_planning_context.cpp (a projection reads joints of the group).
+A projection of MoveIt's OMPL planners reads joints of its group; this was not compared with the source.
 """
 
 from __future__ import annotations

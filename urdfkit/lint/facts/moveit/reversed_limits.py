@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number
 
 _FEWEST = 2
 """Smallest number of states that the limits exclude."""
@@ -24,19 +25,12 @@ def reversed_limits(root: Element, robot: Robot) -> Iterator[tuple[list[Joint], 
     for state in root.find_all("group_state"):
         for value in state.find_all("joint"):
             joint = robot.joint_by_name.get(value.get("name") or "")
-            number = _number(value.get("value") or "")
-            if joint is not None and joint.limit is not None and number is not None and abs(number) > _TOLERANCE:
-                found.setdefault(joint.limit.element.origin.position, []).append((joint, number))
+            position = number(value.get("value") or "")
+            if joint is not None and joint.limit is not None and position is not None and abs(position) > _TOLERANCE:
+                found.setdefault(joint.limit.element.origin.position, []).append((joint, position))
     for uses in found.values():
-        if len(uses) >= _FEWEST and all(_is_excluded(joint, number) for joint, number in uses):
-            yield list(dict.fromkeys(joint for joint, _ in uses)), [number for _, number in uses]
-
-
-def _number(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None
+        if len(uses) >= _FEWEST and all(_is_excluded(joint, position) for joint, position in uses):
+            yield list(dict.fromkeys(joint for joint, _ in uses)), [position for _, position in uses]
 
 
 def _is_excluded(joint: Joint, value: float) -> bool:

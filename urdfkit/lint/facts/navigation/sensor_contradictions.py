@@ -1,7 +1,6 @@
 """Parameters of costmaps and of mapping that contradict the height or the range of the robot's laser scanners.
 
-Sources: costmap_2d and nav2_costmap_2d (obstacle_layer.cpp), slam_toolbox (slam_toolbox_common.cpp), gmapping (wiki);
-they were not compared again.
+The behaviour is that of costmap_2d, nav2_costmap_2d, slam_toolbox and gmapping; the sources were not compared.
 """
 
 from __future__ import annotations

@@ -60,8 +60,9 @@ def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], 
         if not name.endswith(LAUNCH):
             continue
         seen: set[tuple[int, int]] = set()
-        names = {argument for start in starts(source)[0] for argument in start.conditions}
-        names |= {value[1:] for start in starts(source)[0] for value in start.passed.values() if value[:1] == "$"}
+        actions, _ = starts(source)
+        names = {argument for start in actions for argument in start.conditions}
+        names |= {value[1:] for start in actions for value in start.passed.values() if value[:1] == "$"}
         found = publishers.in_file(source, {each: f"${each}" for each in names})
         for first, second in combinations(sorted(found, key=lambda each: each.place), 2):
             common = first.conditions.keys() & second.conditions.keys()

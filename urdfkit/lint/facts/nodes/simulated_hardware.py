@@ -11,12 +11,12 @@ from urdfkit.lint.facts.launch.actions import actions_of
 from urdfkit.lint.facts.launch.receivers import actions_at, receiver
 from urdfkit.lint.facts.launch.records import Call
 from urdfkit.lint.facts.nodes.conditional_starts import Start, starts
+from urdfkit.lint.facts.nodes.simulation_time import GAZEBO
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
 from urdfkit.lint.facts.topics.node_topics import CAMERAS, topics_of
 from urdfkit.lint.model.model import Model
 
 _SIMULATED = r"(?:use_|is_|in_|run_)?(?:sim|simulation|simulated|gazebo|gz|ignition)(?:_mode|_time)?"
-_GAZEBO = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
 _ROBOT, _WORLD = "a driver of the hardware", "Gazebo"
 
 
@@ -48,19 +48,19 @@ def _started(start: Start, by_file: dict[str, list[LaunchedNode]], model: Model)
     """Return whether a start begins drivers or Gazebo; empty for others, and for both."""
     if not start.is_include:
         return _kind(start.package, start.program)
-    if start.package in _GAZEBO:
+    if start.package in GAZEBO:
         return _WORLD
     path = receiver(Call(start.package, start.program, *start.place, ()), model)
     actions = actions_at(path, model) if path is not None else None
     if actions is None:
         return ""
     kinds = {_kind(node.package, node.program) for node in by_file.get(actions.source.file, ())} - {""}
-    kinds |= {_WORLD for call in actions_of(actions.source).includes if call.package in _GAZEBO}
+    kinds |= {_WORLD for call in actions_of(actions.source).includes if call.package in GAZEBO}
     return kinds.pop() if len(kinds) == 1 else ""
 
 
 def _kind(package: str, program: str) -> str:
-    if package in _GAZEBO:
+    if package in GAZEBO:
         return _WORLD
     topics = topics_of(package, program)
     is_driver = package in CAMERAS or (topics is not None and not topics.read and package != "robot_localization")

@@ -21,7 +21,9 @@ from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, param
 from urdfkit.lint.model.model import Model
 
 _KEY = "use_sim_time"
-_GAZEBO = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
+GAZEBO = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
+"""Packages whose launch files and programs start Gazebo."""
+
 _TIMED = ("robot_localization", "robot_state_publisher", "slam_toolbox", "cartographer_ros")
 """Packages whose nodes compare the times of messages or transforms; those of Nav2 too."""
 
@@ -158,9 +160,9 @@ def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:
     for call in actions_of(source).includes:
         if call.is_conditional:
             continue
-        path = receiver(call, model) if depth < 3 and call.package not in _GAZEBO else None
+        path = receiver(call, model) if depth < 3 and call.package not in GAZEBO else None
         included = actions_at(path, model) if path is not None else None
-        if call.package in _GAZEBO or (included is not None and _starts_gazebo(included.source, model, depth + 1)):
+        if call.package in GAZEBO or (included is not None and _starts_gazebo(included.source, model, depth + 1)):
             return True
     return False
 

@@ -217,7 +217,10 @@ OF_CONTROLLERS = {
         **{"wheelbase": "wheel_separation_h"},
     },
 }
-"""Type of a controller of ROS 1 → names in other packages and releases → its names (ros_controllers, Noetic)."""
+"""Type of a ROS 1 controller → names in other packages and releases → its names in Noetic.
+
+These and the names below were not compared with the sources.
+"""
 
 OF_ROS1 = {
     "amcl": {
@@ -236,7 +239,7 @@ OF_ROS1 = {
     },
     "robot_state_publisher": {"frequency": "publish_frequency"},
 }
-"""Package of ROS 1 → names of other releases → names of Noetic (navigation, slam_gmapping, teleop_twist_joy)."""
+"""ROS 1 package → names of other releases → names of Noetic."""
 
 
 @cache

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import hypot
 
 from urdfkit.description.urdf.geometry import box_around
 from urdfkit.description.urdf.robot import Joint, Mesh, Vector
@@ -101,9 +100,8 @@ def _carriers(model: Model) -> set[str]:
 
 def depth(point: Vector, extent: Extent) -> float:
     """Return the depth of a point below the surface of the box around the shapes of a link; negative outside [m]."""
-    outside = [max(a - x, x - b, 0.0) for a, x, b in zip(extent.low, point, extent.high, strict=True)]
-    if any(outside):
-        return -hypot(*outside)
+    if outside := extent.outside(point):
+        return -outside
     return min(min(x - a, b - x) for a, x, b in zip(extent.low, point, extent.high, strict=True))
 
 

@@ -1,6 +1,6 @@
 """J424 slide-off-its-parent."""
 
-from math import hypot, inf
+from math import hypot
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Joint, Pose, Vector
@@ -135,9 +135,5 @@ def _gap(joint: Joint, axis: Vector, positions: tuple[float, ...], parent: Exten
 
 def _around(frame: Frame, extent: Extent) -> Corners:
     """Return the corners of the box of a link in another frame."""
-    low, high = [inf, inf, inf], [-inf, -inf, -inf]
-    for corner in range(8):
-        x, y, z = ((extent.high if corner >> k & 1 else extent.low)[k] for k in range(3))
-        point = frame.moved(Pose((x, y, z))).translation
-        low, high = list(map(min, low, point)), list(map(max, high, point))
-    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+    (a, b, c), (x, y, z) = ([side(part) for part in zip(*extent.corners_in(frame), strict=True)] for side in (min, max))
+    return (a, b, c), (x, y, z)

@@ -3,7 +3,6 @@
 import re
 from math import hypot
 
-from urdfkit.description.urdf.robot import Pose
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 from urdfkit.record import record
@@ -136,9 +135,7 @@ def _size(model: Model) -> _Size | None:
     for name, extent in model.extents.items():
         if name in moved or name not in model.frames:
             continue
-        for corner in range(8):
-            x, y, z = ((extent.high if corner >> k & 1 else extent.low)[k] for k in range(3))
-            points.append(model.frames[name].moved(Pose((x, y, z))).translation)
+        points += extent.corners_in(model.frames[name])
     if not points:
         return None
     sides = [[point[k] for point in points] for k in (0, 1)]
