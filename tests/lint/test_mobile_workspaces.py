@@ -365,6 +365,15 @@ MISTAKES = [
     (
         ROS2,
         START,
+        'LaunchConfiguration("rear").perform(context).lower() == "true"',
+        'bool(LaunchConfiguration("rear").perform(context))',
+        "L106",
+        20,
+        "this text is true even if it is `false`",
+    ),
+    (
+        ROS2,
+        START,
         'perform(context).lower() == "true"',
         "perform(context) == True",
         "L106",
