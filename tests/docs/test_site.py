@@ -40,7 +40,7 @@ def test_the_strict_build_has_every_page(tmp_path: Path) -> None:
     assert {page.stem for page in (reference / "rules").glob("*.html")} == {"index", *(rule.code for rule in rules())}
     names = {*urdfkit.__all__} - {"__version__"}
     assert {page.stem for page in (reference / "api").glob("*.html") if "." not in page.stem} == {"index", *names}
-    assert 'id="use-instead"' in (reference / "rules/I503.html").read_text("utf-8")
+    assert 'id="example"' in (reference / "rules/I503.html").read_text("utf-8")
     lint = (reference / "commands/lint.html").read_text("utf-8")
     assert all(f"<code>{option}</code>" in lint for option in ("--fix", "--select", "--baseline"))
     for notebook in (ROOT / "docs/notebooks").glob("*.ipynb"):

@@ -192,21 +192,19 @@ def test_each_rule_has_its_files():
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
 def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    found = sections(rule)
-    for heading, is_bad in (("Example", True), ("Use instead", False)):
-        example = re.fullmatch(r"```(?:xml|yaml|cmake|python)\n(.*)\n```", found[heading], re.DOTALL)
-        assert example, f"the section {heading} of {rule.code} is one block of XML, YAML, CMake or Python"
-        is_xacro = "xacro" in example[1] and any((HERE / rule.name).glob("*.xacro"))
-        file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
+    diff = re.fullmatch(r'```diff(?: title="(.*)")?\n(.*)\n```', sections(rule)["Example"], re.DOTALL)
+    assert diff, f"the example of {rule.code} is one block of a diff"
+    for is_bad, other in ((True, "+"), (False, "-")):
+        example = "\n".join(line[1:] for line in diff[2].splitlines() if not line.startswith(other))
+        is_xacro = "xacro" in example and any((HERE / rule.name).glob("*.xacro"))
+        file = tmp_path / (diff[1] or ("example.urdf.xacro" if is_xacro else "example.urdf"))
         beside = [path for path in (HERE / rule.name).glob("bad.*") if path.suffix in (".launch", ".yaml", ".srdf")]
-        if beside:  # A rule on what lies around the description.
+        if beside and not diff[1]:  # A rule on what lies around the description.
             file = tmp_path / f"example{beside[0].suffix}"
-        if "```python" in found[heading]:
-            file = tmp_path / "example.launch.py"
         if (HERE / rule.name / "good.package").is_dir():  # A rule on the files of a package.
             shutil.copytree(HERE / rule.name / "good.package", tmp_path, dirs_exist_ok=True)
-            file = tmp_path / ("CMakeLists.txt" if "```cmake" in found[heading] else "package.xml")
-        file.write_text(example[1])
+            file = tmp_path / (diff[1] or "package.xml")
+        file.write_text(example)
         # Meshes and manifests that examples need lie next to the files of the rule.
         shutil.copytree(HERE / rule.name, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns(*FIXTURES))
         codes = {finding.code for finding in lint(file, target=target(rule))}
@@ -218,7 +216,7 @@ def test_pages_have_their_sections_in_order():
     for rule in RULES:
         headings = list(sections(rule))
         assert headings == [heading for heading in SECTIONS if heading in headings], rule.name
-        assert set(SECTIONS[:4]) <= set(headings), rule.name
+        assert set(SECTIONS[:3]) <= set(headings), rule.name
         assert ("Fix safety" in headings) is (rule.fix != "none"), rule.name
         assert page(rule).startswith(f"# {rule.name} ({rule.code})")
         assert title(rule).endswith("."), rule.name

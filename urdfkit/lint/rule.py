@@ -23,8 +23,10 @@ Findings = Iterator[Finding]
 NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
 """Targets that read neither ``<gazebo>`` elements nor controller configuration."""
 
-SECTIONS = ("What it does", "Why is this bad?", "Example", "Use instead", "Fix safety", "References")
-"""The headings a rule's docstring may have, in this order; the first four are required."""
+SECTIONS = ("What it does", "Why is this bad?", "Example", "Fix safety", "References")
+"""The headings a rule's docstring may have, in this order; the first three are required.
+
+The example is a diff. Without its lines with ``+`` it has the defect; without its lines with ``-`` it does not."""
 
 
 class Rule:

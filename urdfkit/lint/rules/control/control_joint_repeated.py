@@ -27,35 +27,20 @@ class ControlJointRepeated(RobotRule):
     that it is for has none.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="lower"/>
-      <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
-      <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/></joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="shoulder"><command_interface name="position"/><state_interface name="position"/></joint>
-        <joint name="shoulder"><command_interface name="position"/><state_interface name="position"/></joint>
-      </ros2_control>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="lower"/>
-      <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
-      <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/></joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="shoulder"><command_interface name="position"/><state_interface name="position"/></joint>
-        <joint name="elbow"><command_interface name="position"/><state_interface name="position"/></joint>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+       <link name="lower"/>
+       <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
+       <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/></joint>
+       <ros2_control name="arm" type="system">
+         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+         <joint name="shoulder"><command_interface name="position"/><state_interface name="position"/></joint>
+    -    <joint name="shoulder"><command_interface name="position"/><state_interface name="position"/></joint>
+    +    <joint name="elbow"><command_interface name="position"/><state_interface name="position"/></joint>
+       </ros2_control>
+     </robot>
     ```
     """
 

@@ -22,34 +22,19 @@ class ControlPartMissing(RobotRule):
     zero".
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+       <transmission name="elbow_transmission">
+    +    <type>transmission_interface/SimpleTransmission</type>
+         <joint name="elbow">
+           <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+         </joint>
+         <actuator name="elbow_motor"/>
+       </transmission>
+     </robot>
     ```
 
     ## References

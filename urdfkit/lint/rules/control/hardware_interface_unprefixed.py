@@ -15,35 +15,20 @@ class HardwareInterfaceUnprefixed(RobotRule):
     gazebo_ros_control logs a deprecation warning at every start.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+       <transmission name="elbow_transmission">
+         <type>transmission_interface/SimpleTransmission</type>
+         <joint name="elbow">
+    -      <hardwareInterface>EffortJointInterface</hardwareInterface>
+    +      <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+         </joint>
+         <actuator name="elbow_motor"/>
+       </transmission>
+     </robot>
     ```
 
     ## Fix safety

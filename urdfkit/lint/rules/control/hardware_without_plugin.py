@@ -23,26 +23,16 @@ class HardwareWithoutPlugin(RobotRule):
     and the robot does not move.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-      </ros2_control>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-      </ros2_control>
-      <gazebo>
-        <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <ros2_control name="arm" type="system">
+         <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+       </ros2_control>
+    +  <gazebo>
+    +    <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
+    +  </gazebo>
+     </robot>
     ```
     """
 

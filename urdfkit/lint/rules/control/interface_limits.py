@@ -27,49 +27,28 @@ class InterfaceLimits(RobotRule):
     than those of the joint depends on the hardware.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
-      </joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="elbow">
-          <command_interface name="position">
-            <param name="min">-90</param>
-            <param name="max">90</param>
-          </command_interface>
-        </joint>
-      </ros2_control>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
-      </joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="elbow">
-          <command_interface name="position">
-            <param name="min">-1.5</param>
-            <param name="max">1.5</param>
-          </command_interface>
-        </joint>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+         <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
+       </joint>
+       <ros2_control name="arm" type="system">
+         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+         <joint name="elbow">
+           <command_interface name="position">
+    -        <param name="min">-90</param>
+    -        <param name="max">90</param>
+    +        <param name="min">-1.5</param>
+    +        <param name="max">1.5</param>
+           </command_interface>
+         </joint>
+       </ros2_control>
+     </robot>
     ```
     """
 

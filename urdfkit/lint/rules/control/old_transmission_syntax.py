@@ -14,35 +14,25 @@ class OldTransmissionSyntax(RobotRule):
     ros_control and gazebo_ros_control read only the ``<type>`` element and skip the transmission.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission" type="pr2_mechanism_model/SimpleTransmission">
-        <actuator name="elbow_motor"/>
-        <joint name="elbow"/>
-        <mechanicalReduction>10</mechanicalReduction>
-      </transmission>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor">
-          <mechanicalReduction>10</mechanicalReduction>
-        </actuator>
-      </transmission>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+    -  <transmission name="elbow_transmission" type="pr2_mechanism_model/SimpleTransmission">
+    -    <actuator name="elbow_motor"/>
+    -    <joint name="elbow"/>
+    -    <mechanicalReduction>10</mechanicalReduction>
+    +  <transmission name="elbow_transmission">
+    +    <type>transmission_interface/SimpleTransmission</type>
+    +    <joint name="elbow">
+    +      <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+    +    </joint>
+    +    <actuator name="elbow_motor">
+    +      <mechanicalReduction>10</mechanicalReduction>
+    +    </actuator>
+       </transmission>
+     </robot>
     ```
     """
 

@@ -38,29 +38,17 @@ class HardwareMismatch(RobotRule):
     pluginlib does not find the class, and the controller manager stops.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSystem</plugin></hardware>
-      </ros2_control>
-      <gazebo>
-        <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-      </ros2_control>
-      <gazebo>
-        <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <ros2_control name="arm" type="system">
+    -    <hardware><plugin>gz_ros2_control/GazeboSystem</plugin></hardware>
+    +    <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+       </ros2_control>
+       <gazebo>
+         <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

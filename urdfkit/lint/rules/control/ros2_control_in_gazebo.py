@@ -15,25 +15,18 @@ class Ros2ControlInGazebo(RobotRule):
     ros2_control reads only children of ``<robot>``, so it finds no hardware and the controller manager does not start.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <gazebo>
-        <ros2_control name="arm" type="system">
-          <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        </ros2_control>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+    -  <gazebo>
+    -    <ros2_control name="arm" type="system">
+    -      <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    -    </ros2_control>
+    -  </gazebo>
+    +  <ros2_control name="arm" type="system">
+    +    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    +  </ros2_control>
+     </robot>
     ```
 
     ## Fix safety

@@ -19,35 +19,20 @@ class Ros2ControlJointUndefined(RobotRule):
     removes fixed joints from the model.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="ellbow">
-          <command_interface name="position"/>
-          <state_interface name="position"/>
-        </joint>
-      </ros2_control>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="elbow">
-          <command_interface name="position"/>
-          <state_interface name="position"/>
-        </joint>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
+       <ros2_control name="arm" type="system">
+         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    -    <joint name="ellbow">
+    +    <joint name="elbow">
+           <command_interface name="position"/>
+           <state_interface name="position"/>
+         </joint>
+       </ros2_control>
+     </robot>
     ```
 
     ## Fix safety

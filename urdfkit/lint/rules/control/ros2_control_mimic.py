@@ -17,43 +17,24 @@ class Ros2ControlMimic(RobotRule):
     The hardware and ``robot_state_publisher`` couple the joint to different joints, or the description is rejected.
 
     ## Example
-    ```xml
-    <robot name="hand">
-      <link name="palm"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_finger" type="continuous">
-        <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
-      </joint>
-      <joint name="right_finger" type="continuous">
-        <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/><mimic joint="left_finger"/>
-      </joint>
-      <ros2_control name="hand" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="left_finger"><command_interface name="position"/><state_interface name="position"/></joint>
-        <joint name="right_finger"><param name="mimic">right_finger</param></joint>
-      </ros2_control>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="hand">
-      <link name="palm"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_finger" type="continuous">
-        <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
-      </joint>
-      <joint name="right_finger" type="continuous">
-        <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/><mimic joint="left_finger"/>
-      </joint>
-      <ros2_control name="hand" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="left_finger"><command_interface name="position"/><state_interface name="position"/></joint>
-        <joint name="right_finger"><param name="mimic">left_finger</param></joint>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="hand">
+       <link name="palm"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_finger" type="continuous">
+         <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
+       </joint>
+       <joint name="right_finger" type="continuous">
+         <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/><mimic joint="left_finger"/>
+       </joint>
+       <ros2_control name="hand" type="system">
+         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+         <joint name="left_finger"><command_interface name="position"/><state_interface name="position"/></joint>
+    -    <joint name="right_finger"><param name="mimic">right_finger</param></joint>
+    +    <joint name="right_finger"><param name="mimic">left_finger</param></joint>
+       </ros2_control>
+     </robot>
     ```
     """
 

@@ -19,23 +19,14 @@ class Ros2ControlTypeUnknown(RobotRule):
     it rejects the whole robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="sytem">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-      </ros2_control>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+    -  <ros2_control name="arm" type="sytem">
+    +  <ros2_control name="arm" type="system">
+         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+       </ros2_control>
+     </robot>
     ```
 
     ## Fix safety

@@ -13,35 +13,24 @@ class TransmissionInRos2(RobotRule):
     ROS 2 reads joint interfaces only from ``<ros2_control>``, so controllers find no joints.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
-      <ros2_control name="arm" type="system">
-        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
-        <joint name="elbow">
-          <command_interface name="effort"/>
-          <state_interface name="position"/>
-        </joint>
-      </ros2_control>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
+    -  <transmission name="elbow_transmission">
+    -    <type>transmission_interface/SimpleTransmission</type>
+    +  <ros2_control name="arm" type="system">
+    +    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+         <joint name="elbow">
+    -      <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+    +      <command_interface name="effort"/>
+    +      <state_interface name="position"/>
+         </joint>
+    -    <actuator name="elbow_motor"/>
+    -  </transmission>
+    +  </ros2_control>
+     </robot>
     ```
     """
 

@@ -20,35 +20,22 @@ class TransmissionInterfaceMissing(RobotRule):
     ``<actuator>``.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow"/>
-        <actuator name="elbow_motor">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </actuator>
-      </transmission>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+       <transmission name="elbow_transmission">
+         <type>transmission_interface/SimpleTransmission</type>
+    -    <joint name="elbow"/>
+    -    <actuator name="elbow_motor">
+    +    <joint name="elbow">
+           <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+    -    </actuator>
+    +    </joint>
+    +    <actuator name="elbow_motor"/>
+       </transmission>
+     </robot>
     ```
 
     ## Fix safety

@@ -27,35 +27,20 @@ class TransmissionTypeUnknown(RobotRule):
     pluginlib does not find the class, so the hardware does not load its transmissions.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmision</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
-      <transmission name="elbow_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="elbow">
-          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="elbow_motor"/>
-      </transmission>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+       <transmission name="elbow_transmission">
+    -    <type>transmission_interface/SimpleTransmision</type>
+    +    <type>transmission_interface/SimpleTransmission</type>
+         <joint name="elbow">
+           <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+         </joint>
+         <actuator name="elbow_motor"/>
+       </transmission>
+     </robot>
     ```
 
     ## Fix safety

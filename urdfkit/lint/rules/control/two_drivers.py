@@ -21,71 +21,41 @@ class TwoDrivers(RobotRule):
     Both set the joint in every step, so the joint jerks or follows the plugin that runs last.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base_footprint"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="10"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base_footprint"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="10"/>
-      </joint>
-      <transmission name="left_transmission">
-        <type>transmission_interface/SimpleTransmission</type>
-        <joint name="left_joint">
-          <hardwareInterface>hardware_interface/VelocityJointInterface</hardwareInterface>
-        </joint>
-        <actuator name="left_motor"/>
-      </transmission>
-      <gazebo>
-        <plugin name="control" filename="libgazebo_ros_control.so"/>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base_footprint"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="10"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base_footprint"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="10"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="continuous">
+         <parent link="base_footprint"/>
+         <child link="left"/>
+         <origin xyz="0 0.15 0"/>
+         <axis xyz="0 1 0"/>
+         <limit effort="10" velocity="10"/>
+       </joint>
+       <joint name="right_joint" type="continuous">
+         <parent link="base_footprint"/>
+         <child link="right"/>
+         <origin xyz="0 -0.15 0"/>
+         <axis xyz="0 1 0"/>
+         <limit effort="10" velocity="10"/>
+       </joint>
+    -  <transmission name="left_transmission">
+    -    <type>transmission_interface/SimpleTransmission</type>
+    -    <joint name="left_joint">
+    -      <hardwareInterface>hardware_interface/VelocityJointInterface</hardwareInterface>
+    -    </joint>
+    -    <actuator name="left_motor"/>
+    -  </transmission>
+       <gazebo>
+    -    <plugin name="control" filename="libgazebo_ros_control.so"/>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <leftJoint>left_joint</leftJoint>
+           <rightJoint>right_joint</rightJoint>
+           <wheelSeparation>0.3</wheelSeparation>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

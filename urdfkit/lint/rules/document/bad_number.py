@@ -29,27 +29,16 @@ class BadNumber(RobotRule):
     check_urdf, Pinocchio and MuJoCo reject the whole robot; more lenient readers use zero.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin xyz="-0.1, 0, 0"/>
-          <geometry><sphere radius="0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin xyz="-0.1 0 0"/>
-          <geometry><sphere radius="0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual>
+    -      <origin xyz="-0.1, 0, 0"/>
+    +      <origin xyz="-0.1 0 0"/>
+           <geometry><sphere radius="0.1"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -22,27 +22,16 @@ class NanOrInf(RobotRule):
     A single such value turns all positions into NaN, and simulators stop or diverge.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin xyz="0 0 nan"/>
-          <geometry><sphere radius="0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin xyz="0 0 0"/>
-          <geometry><sphere radius="0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual>
+    -      <origin xyz="0 0 nan"/>
+    +      <origin xyz="0 0 0"/>
+           <geometry><sphere radius="0.1"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
     """
 

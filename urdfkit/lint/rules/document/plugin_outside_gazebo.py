@@ -15,21 +15,14 @@ class PluginOutsideGazebo(RobotRule):
     Gazebo reads only the content of ``<gazebo>`` from a URDF, so the plugin or sensor is not loaded.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+    -  <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
+    +  <gazebo>
+    +    <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
+    +  </gazebo>
+     </robot>
     ```
 
     ## Fix safety

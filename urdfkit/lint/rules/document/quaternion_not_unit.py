@@ -24,27 +24,16 @@ class QuaternionNotUnit(RobotRule):
     the quaternion, and read zero as no rotation; other readers scale the part or reject the robot.
 
     ## Example
-    ```xml
-    <robot name="arm" version="1.1">
-      <link name="base">
-        <visual>
-          <origin quat_xyzw="0 0 1 1"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" version="1.1">
-      <link name="base">
-        <visual>
-          <origin quat_xyzw="0 0 0.70710678 0.70710678"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" version="1.1">
+       <link name="base">
+         <visual>
+    -      <origin quat_xyzw="0 0 1 1"/>
+    +      <origin quat_xyzw="0 0 0.70710678 0.70710678"/>
+           <geometry><box size="0.1 0.1 0.3"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

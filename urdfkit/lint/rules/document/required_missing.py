@@ -25,25 +25,15 @@ class RequiredMissing(RobotRule):
     check_urdf only warns about some of them and drops the geometry or the inertia; other readers reject the robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry><cylinder radius="0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry><cylinder radius="0.1" length="0.2"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual>
+    -      <geometry><cylinder radius="0.1"/></geometry>
+    +      <geometry><cylinder radius="0.1" length="0.2"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
     """
 

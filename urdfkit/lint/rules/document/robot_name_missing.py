@@ -16,17 +16,11 @@ class RobotNameMissing(RobotRule):
     urdfdom rejects the robot: "No name given for the robot".
 
     ## Example
-    ```xml
-    <robot>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-    </robot>
+    ```diff
+    -<robot>
+    +<robot name="arm">
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

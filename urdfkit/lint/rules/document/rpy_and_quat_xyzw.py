@@ -16,27 +16,16 @@ class RpyAndQuatXyzw(RobotRule):
     urdfdom rejects the robot. urdfkit rejects it if the rotations differ, because one of them is wrong.
 
     ## Example
-    ```xml
-    <robot name="arm" version="1.1">
-      <link name="base">
-        <visual>
-          <origin rpy="0 0 1.57079633" quat_xyzw="0 0 0.70710678 0.70710678"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" version="1.1">
-      <link name="base">
-        <visual>
-          <origin quat_xyzw="0 0 0.70710678 0.70710678"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" version="1.1">
+       <link name="base">
+         <visual>
+    -      <origin rpy="0 0 1.57079633" quat_xyzw="0 0 0.70710678 0.70710678"/>
+    +      <origin quat_xyzw="0 0 0.70710678 0.70710678"/>
+           <geometry><box size="0.1 0.1 0.3"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

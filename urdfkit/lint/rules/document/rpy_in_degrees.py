@@ -17,27 +17,16 @@ class RpyInDegrees(RobotRule):
     Angles are in radians: a value of 90 rotates the part by 117 degrees. No reader reports an error.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin rpy="90 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin rpy="1.5707963 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual>
+    -      <origin rpy="90 0 0"/>
+    +      <origin rpy="1.5707963 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.3"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -25,37 +25,21 @@ class StrayQuote(RobotRule):
     Such characters often come from text copied from a web page. The name no longer matches, and references to it fail.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="hand"/>
-      <joint name="wrist" type="fixed">
-        <parent link="base"/>
-        <child link="hand"/>
-      </joint>
-      <gazebo>
-        <plugin name="driver" filename="libmy_driver.so">
-          <joint>"wrist</joint>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="hand"/>
-      <joint name="wrist" type="fixed">
-        <parent link="base"/>
-        <child link="hand"/>
-      </joint>
-      <gazebo>
-        <plugin name="driver" filename="libmy_driver.so">
-          <joint>wrist</joint>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="hand"/>
+       <joint name="wrist" type="fixed">
+         <parent link="base"/>
+         <child link="hand"/>
+       </joint>
+       <gazebo>
+         <plugin name="driver" filename="libmy_driver.so">
+    -      <joint>"wrist</joint>
+    +      <joint>wrist</joint>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

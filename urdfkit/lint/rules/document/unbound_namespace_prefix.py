@@ -22,19 +22,12 @@ class UnboundNamespacePrefix(SourceRule):
     XML parsers stop with "unbound prefix" and do not report which declaration is missing.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base"/>
-    </robot>
+    ```diff
+    -<robot name="arm" xmlns="http://www.ros.org/wiki/xacro">
+    +<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:property name="length" value="0.4"/>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

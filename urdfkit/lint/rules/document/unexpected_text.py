@@ -17,29 +17,17 @@ class UnexpectedText(RobotRule):
     Readers ignore the text silently. It is usually the remainder of a comment or of an incomplete tag.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry>robot
-            <sphere radius="0.1"/>
-          </geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry>
-            <sphere radius="0.1"/>
-          </geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual>
+    -      <geometry>robot
+    +      <geometry>
+             <sphere radius="0.1"/>
+           </geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -37,29 +37,17 @@ class UnknownAttribute(RobotRule):
     Readers ignore the attribute silently: ``rpy`` does not rotate an axis, and a misspelt ``efort`` limits nothing.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="axle" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0" rpy="0 0 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="axle" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="wheel"/>
+       <joint name="axle" type="continuous">
+         <parent link="base"/>
+         <child link="wheel"/>
+    -    <axis xyz="0 1 0" rpy="0 0 0"/>
+    +    <axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

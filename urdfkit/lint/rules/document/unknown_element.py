@@ -37,29 +37,17 @@ class UnknownElement(RobotRule):
     inertia, and check_urdf still prints "Successfully Parsed".
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="axle" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <joint_properties damping="0.1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="axle" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <dynamics damping="0.1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="wheel"/>
+       <joint name="axle" type="continuous">
+         <parent link="base"/>
+         <child link="wheel"/>
+    -    <joint_properties damping="0.1"/>
+    +    <dynamics damping="0.1"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -23,23 +23,16 @@ class UnknownSuppression(Rule):
     The comment does not suppress the intended finding, and may later suppress a new rule with this code.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <!-- urdfkit: ignore J4O2 -->
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="shoulder" type="hinge"> <!-- urdfkit: ignore J402 our reader supports it -->
-        <parent link="base"/>
-        <child link="arm"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+    -  <!-- urdfkit: ignore J4O2 -->
+       <link name="base"/>
+    +  <link name="arm"/>
+    +  <joint name="shoulder" type="hinge"> <!-- urdfkit: ignore J402 our reader supports it -->
+    +    <parent link="base"/>
+    +    <child link="arm"/>
+    +  </joint>
+     </robot>
     ```
     """
 

@@ -23,18 +23,11 @@ class UnusedSuppression(Rule):
     An unused comment hides future findings.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <!-- urdfkit: ignore J403 -->
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm">
+    -  <!-- urdfkit: ignore J403 -->
+       <link name="base"/>
+     </robot>
     ```
     """
 

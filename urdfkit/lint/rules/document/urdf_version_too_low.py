@@ -19,27 +19,16 @@ class UrdfVersionTooLow(RobotRule):
     collision or visual with the capsule; MuJoCo, PyBullet and urdfkit read capsules in every version.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin xyz="0 0 0.1" quat_xyzw="0 0.70710678 0 0.70710678"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" version="1.1">
-      <link name="base">
-        <visual>
-          <origin xyz="0 0 0.1" quat_xyzw="0 0.70710678 0 0.70710678"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+    -<robot name="arm">
+    +<robot name="arm" version="1.1">
+       <link name="base">
+         <visual>
+           <origin xyz="0 0 0.1" quat_xyzw="0 0.70710678 0 0.70710678"/>
+           <geometry><box size="0.1 0.1 0.3"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

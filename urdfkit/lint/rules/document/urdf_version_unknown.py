@@ -15,17 +15,11 @@ class UrdfVersionUnknown(RobotRule):
     numbers with a dot.
 
     ## Example
-    ```xml
-    <robot name="arm" version="1">
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" version="1.0">
-      <link name="base"/>
-    </robot>
+    ```diff
+    -<robot name="arm" version="1">
+    +<robot name="arm" version="1.0">
+       <link name="base"/>
+     </robot>
     ```
     """
 

@@ -20,27 +20,17 @@ class UrdfVersionUnsupported(RobotRule):
     Older readers ignore ``quat_xyzw`` and drop capsules.
 
     ## Example
-    ```xml
-    <robot name="arm" version="1.1">
-      <link name="base">
-        <visual>
-          <origin xyz="0 0 0.1" quat_xyzw="0 0.70710678 0 0.70710678"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <origin xyz="0 0 0.1" rpy="0 1.57079633 0"/>
-          <geometry><box size="0.1 0.1 0.3"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+    -<robot name="arm" version="1.1">
+    +<robot name="arm">
+       <link name="base">
+         <visual>
+    -      <origin xyz="0 0 0.1" quat_xyzw="0 0.70710678 0 0.70710678"/>
+    +      <origin xyz="0 0 0.1" rpy="0 1.57079633 0"/>
+           <geometry><box size="0.1 0.1 0.3"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
     """
 

@@ -15,25 +15,15 @@ class WrongArity(RobotRule):
     check_urdf at most warns and drops the geometry of the link; other readers reject the robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry><box size="0.1 0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry><box size="0.1 0.1 0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual>
+    -      <geometry><box size="0.1 0.1"/></geometry>
+    +      <geometry><box size="0.1 0.1 0.1"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

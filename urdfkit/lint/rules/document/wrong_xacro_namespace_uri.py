@@ -19,19 +19,12 @@ class WrongXacroNamespaceUri(SourceRule):
     redefinitions" when it includes a file with the correct namespace. Other XML tools do not recognize the elements.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="TheRobot">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base"/>
-    </robot>
+    ```diff
+    -<robot name="arm" xmlns:xacro="TheRobot">
+    +<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:property name="length" value="0.4"/>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

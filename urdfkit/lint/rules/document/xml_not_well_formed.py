@@ -22,17 +22,11 @@ class XmlNotWellFormed(FaultRule):
     No reader of the description gets past the error. xacro reports the line, but not the name of an included file.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm">
+    -  <link name="base">
+    +  <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

@@ -14,26 +14,16 @@ class ConflictingBlocks(RobotRule):
     Only one of the values takes effect, and SDF does not specify which one.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <material>Gazebo/Blue</material>
-      </gazebo>
-      <gazebo reference="base">
-        <material>Gazebo/Green</material>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <material>Gazebo/Green</material>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+    -  <gazebo reference="base">
+    -    <material>Gazebo/Blue</material>
+    -  </gazebo>
+       <gazebo reference="base">
+         <material>Gazebo/Green</material>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -14,27 +14,16 @@ class DeprecatedGazeboTag(RobotRule):
     sdformat still reads the element, but logs a warning at every start.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="axle" type="fixed"><parent link="base"/><child link="wheel"/></joint>
-      <gazebo reference="axle">
-        <cfmDamping>true</cfmDamping>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="axle" type="fixed"><parent link="base"/><child link="wheel"/></joint>
-      <gazebo reference="axle">
-        <implicitSpringDamper>true</implicitSpringDamper>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="wheel"/>
+       <joint name="axle" type="fixed"><parent link="base"/><child link="wheel"/></joint>
+       <gazebo reference="axle">
+    -    <cfmDamping>true</cfmDamping>
+    +    <implicitSpringDamper>true</implicitSpringDamper>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

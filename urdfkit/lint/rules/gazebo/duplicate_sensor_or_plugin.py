@@ -20,25 +20,15 @@ class DuplicateSensorOrPlugin(RobotRule):
     SDF requires unique names: Gazebo rejects the model, or both publish on the same topic.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camera"/>
-        <sensor name="eye" type="depth"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camera"/>
-        <sensor name="depth_eye" type="depth"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="mast"/>
+       <gazebo reference="mast">
+         <sensor name="eye" type="camera"/>
+    -    <sensor name="eye" type="depth"/>
+    +    <sensor name="depth_eye" type="depth"/>
+       </gazebo>
+     </robot>
     ```
     """
 

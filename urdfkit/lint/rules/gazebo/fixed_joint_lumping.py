@@ -20,36 +20,21 @@ class FixedJointLumping(RobotRule):
     name, and the plugin stops.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="imu"/>
-      <joint name="imu_joint" type="fixed"><parent link="base"/><child link="imu"/></joint>
-      <gazebo>
-        <plugin name="truth" filename="libgazebo_ros_p3d.so">
-          <body_name>imu</body_name>
-          <update_rate>50</update_rate>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="imu"/>
-      <joint name="imu_joint" type="fixed"><parent link="base"/><child link="imu"/></joint>
-      <gazebo reference="imu_joint">
-        <preserveFixedJoint>true</preserveFixedJoint>
-      </gazebo>
-      <gazebo>
-        <plugin name="truth" filename="libgazebo_ros_p3d.so">
-          <body_name>imu</body_name>
-          <update_rate>50</update_rate>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="imu"/>
+       <joint name="imu_joint" type="fixed"><parent link="base"/><child link="imu"/></joint>
+    +  <gazebo reference="imu_joint">
+    +    <preserveFixedJoint>true</preserveFixedJoint>
+    +  </gazebo>
+       <gazebo>
+         <plugin name="truth" filename="libgazebo_ros_p3d.so">
+           <body_name>imu</body_name>
+           <update_rate>50</update_rate>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

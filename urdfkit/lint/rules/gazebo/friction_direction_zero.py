@@ -15,23 +15,14 @@ class FrictionDirectionZero(RobotRule):
     Physics engines divide by the length of the vector, or ignore friction.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <fdir1>0 0 0</fdir1>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <fdir1>1 0 0</fdir1>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo reference="base">
+    -    <fdir1>0 0 0</fdir1>
+    +    <fdir1>1 0 0</fdir1>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -13,27 +13,18 @@ class GazeboMaterial(RobotRule):
     Gazebo Sim does not support these scripts, so the link is white.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <material>Gazebo/Orange</material>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <visual>
-          <material>
-            <diffuse>1 0.5 0 1</diffuse>
-          </material>
-        </visual>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo reference="base">
+    -    <material>Gazebo/Orange</material>
+    +    <visual>
+    +      <material>
+    +        <diffuse>1 0.5 0 1</diffuse>
+    +      </material>
+    +    </visual>
+       </gazebo>
+     </robot>
     ```
     """
 

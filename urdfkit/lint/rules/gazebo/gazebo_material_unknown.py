@@ -16,23 +16,14 @@ class GazeboMaterialUnknown(RobotRule):
     Gazebo logs "Unable to find material" and shows the link in white.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <material>Gazebo/Oragne</material>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <material>Gazebo/Orange</material>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo reference="base">
+    -    <material>Gazebo/Oragne</material>
+    +    <material>Gazebo/Orange</material>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -22,23 +22,14 @@ class GazeboReferenceUndefined(RobotRule):
     Gazebo silently drops the block with its friction, colours and sensors.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="left_finger"/>
-      <gazebo reference="leftfinger">
-        <mu1>0.8</mu1>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="left_finger"/>
-      <gazebo reference="left_finger">
-        <mu1>0.8</mu1>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="left_finger"/>
+    -  <gazebo reference="leftfinger">
+    +  <gazebo reference="left_finger">
+         <mu1>0.8</mu1>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -80,23 +80,14 @@ class GazeboUnknownTag(RobotRule):
     has no effect, and a camera with ``<horisontal_fov>`` has the default field of view.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <selfcollide>true</selfcollide>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <selfCollide>true</selfCollide>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo reference="base">
+    -    <selfcollide>true</selfcollide>
+    +    <selfCollide>true</selfCollide>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -14,49 +14,27 @@ class OdometryPublishedTwice(RobotRule):
     Two nodes publish different poses of the same frame: the robot jumps between them on the map.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-          <publish_odom_tf>true</publish_odom_tf>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-          <publish_odom_tf>false</publish_odom_tf>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="fixed">
+         <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
+       </joint>
+       <joint name="right_joint" type="fixed">
+         <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
+       </joint>
+       <gazebo>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <left_joint>left_joint</left_joint>
+           <right_joint>right_joint</right_joint>
+           <wheel_separation>0.4</wheel_separation>
+    -      <publish_odom_tf>true</publish_odom_tf>
+    +      <publish_odom_tf>false</publish_odom_tf>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

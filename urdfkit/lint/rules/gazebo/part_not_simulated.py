@@ -15,23 +15,14 @@ class PartNotSimulated(RobotRule):
     the real robot, so it is reported only for this target.
 
     ## Example
-    ```xml
-    <robot name="rover">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="slip" filename="libcompany_wheel_slip.so"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="rover">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="rover">
+       <link name="base"/>
+       <gazebo>
+    -    <plugin name="slip" filename="libcompany_wheel_slip.so"/>
+    +    <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
+       </gazebo>
+     </robot>
     ```
     """
 

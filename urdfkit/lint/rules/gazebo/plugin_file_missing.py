@@ -22,27 +22,16 @@ class PluginFileMissing(RobotRule):
     The controller manager starts without controllers, or crashes the simulator.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="gz_ros2_control::GazeboSimROS2ControlPlugin" filename="gz_ros2_control-system">
-          <parameters>$(find rrbot_control)/config/rrbot.yaml</parameters>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="gz_ros2_control::GazeboSimROS2ControlPlugin" filename="gz_ros2_control-system">
-          <parameters>$(find rrbot_control)/config/rrbot_control.yaml</parameters>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="base"/>
+       <gazebo>
+         <plugin name="gz_ros2_control::GazeboSimROS2ControlPlugin" filename="gz_ros2_control-system">
+    -      <parameters>$(find rrbot_control)/config/rrbot.yaml</parameters>
+    +      <parameters>$(find rrbot_control)/config/rrbot_control.yaml</parameters>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -17,23 +17,14 @@ class PluginFilenameMalformed(RobotRule):
     Gazebo reports "Failed to load plugin", because the file does not exist.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move .so"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <gazebo>
+    -    <plugin name="move" filename="libgazebo_ros_planar_move .so"/>
+    +    <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

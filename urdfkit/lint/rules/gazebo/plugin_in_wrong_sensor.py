@@ -16,27 +16,16 @@ class PluginInWrongSensor(RobotRule):
     Gazebo Classic stops loading the plugin, and nothing is published.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="laser" type="ray">
-          <plugin name="laser" filename="libgazebo_ros_gpu_laser.so"/>
-        </sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="laser" type="ray">
-          <plugin name="laser" filename="libgazebo_ros_laser.so"/>
-        </sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="mast"/>
+       <gazebo reference="mast">
+         <sensor name="laser" type="ray">
+    -      <plugin name="laser" filename="libgazebo_ros_gpu_laser.so"/>
+    +      <plugin name="laser" filename="libgazebo_ros_laser.so"/>
+         </sensor>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -26,37 +26,21 @@ class PluginJointUndefined(RobotRule):
     The plugin does nothing, or crashes the simulator.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="wheel_joint" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-      </joint>
-      <gazebo>
-        <plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">
-          <jointName>wheel_hinge</jointName>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="wheel_joint" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-      </joint>
-      <gazebo>
-        <plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">
-          <jointName>wheel_joint</jointName>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="wheel"/>
+       <joint name="wheel_joint" type="continuous">
+         <parent link="base"/>
+         <child link="wheel"/>
+       </joint>
+       <gazebo>
+         <plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">
+    -      <jointName>wheel_hinge</jointName>
+    +      <jointName>wheel_joint</jointName>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -16,27 +16,17 @@ class PluginLibWrongGeneration(RobotRule):
     Gazebo reports "Failed to load plugin", and the robot has no drive or sensor.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <robotBaseFrame>base_footprint</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="gz::sim::systems::VelocityControl" filename="gz-sim-velocity-control-system">
-          <topic>cmd_vel</topic>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <gazebo>
+    -    <plugin name="move" filename="libgazebo_ros_planar_move.so">
+    -      <robotBaseFrame>base_footprint</robotBaseFrame>
+    +    <plugin name="gz::sim::systems::VelocityControl" filename="gz-sim-velocity-control-system">
+    +      <topic>cmd_vel</topic>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -17,27 +17,16 @@ class PluginLinkUndefined(RobotRule):
     The plugin stops, or publishes transforms of a frame that does not exist.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_link"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <robotBaseFrame>baselink</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_link"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <robotBaseFrame>base_link</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_link"/>
+       <gazebo>
+         <plugin name="move" filename="libgazebo_ros_planar_move.so">
+    -      <robotBaseFrame>baselink</robotBaseFrame>
+    +      <robotBaseFrame>base_link</robotBaseFrame>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

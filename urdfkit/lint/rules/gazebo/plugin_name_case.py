@@ -18,23 +18,14 @@ class PluginNameCase(RobotRule):
     does not load the plugin.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="gz::sim::Systems::OdometryPublisher" filename="gz-sim-odometry-publisher-system"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="gz::sim::systems::OdometryPublisher" filename="gz-sim-odometry-publisher-system"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo>
+    -    <plugin name="gz::sim::Systems::OdometryPublisher" filename="gz-sim-odometry-publisher-system"/>
+    +    <plugin name="gz::sim::systems::OdometryPublisher" filename="gz-sim-odometry-publisher-system"/>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -15,23 +15,14 @@ class PluginOrSensorUnnamed(RobotRule):
     model.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor type="camera"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camera"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="mast"/>
+       <gazebo reference="mast">
+    -    <sensor type="camera"/>
+    +    <sensor name="eye" type="camera"/>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -18,27 +18,16 @@ class PluginParamUnknown(RobotRule):
     ignores ``<torque>``.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <odometryRates>20</odometryRates>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <odometryRate>20</odometryRate>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <gazebo>
+         <plugin name="move" filename="libgazebo_ros_planar_move.so">
+    -      <odometryRates>20</odometryRates>
+    +      <odometryRate>20</odometryRate>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -19,31 +19,18 @@ class PluginParamWrongGeneration(RobotRule):
     The plugin ignores the parameter and uses its default, so topics, frames and wheels differ from the description.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <update_rate>50</update_rate>
-          <publish_odom>true</publish_odom>
-          <odometryFrame>odom</odometryFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <update_rate>50</update_rate>
-          <publish_odom>true</publish_odom>
-          <odometry_frame>odom</odometry_frame>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <gazebo>
+         <plugin name="move" filename="libgazebo_ros_planar_move.so">
+           <update_rate>50</update_rate>
+           <publish_odom>true</publish_odom>
+    -      <odometryFrame>odom</odometryFrame>
+    +      <odometry_frame>odom</odometry_frame>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -31,28 +31,16 @@ class PluginParameterMissing(RobotRule):
     The plugin logs a single message at start-up and does nothing.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="truth" filename="libgazebo_ros_p3d.so">
-          <topicName>truth</topicName>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo>
-        <plugin name="truth" filename="libgazebo_ros_p3d.so">
-          <bodyName>base</bodyName>
-          <topicName>truth</topicName>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo>
+         <plugin name="truth" filename="libgazebo_ros_p3d.so">
+    +      <bodyName>base</bodyName>
+           <topicName>truth</topicName>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -23,23 +23,14 @@ class PluginUnknown(RobotRule):
     name of its C++ class.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planer_move.so"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <gazebo>
+    -    <plugin name="move" filename="libgazebo_ros_planer_move.so"/>
+    +    <plugin name="move" filename="libgazebo_ros_planar_move.so"/>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -24,33 +24,19 @@ class PluginValueUnknown(RobotRule):
     with urdfkit ignores the plugin.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <sensor name="lidar" type="ray">
-          <plugin name="lidar" filename="libgazebo_ros_ray_sensor.so">
-            <ros><remapping>~/out=scan</remapping></ros>
-            <output_type>sensor_msgs/LaserScan</output_type>
-          </plugin>
-        </sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <gazebo reference="base">
-        <sensor name="lidar" type="ray">
-          <plugin name="lidar" filename="libgazebo_ros_ray_sensor.so">
-            <ros><remapping>~/out:=scan</remapping></ros>
-            <output_type>sensor_msgs/LaserScan</output_type>
-          </plugin>
-        </sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <gazebo reference="base">
+         <sensor name="lidar" type="ray">
+           <plugin name="lidar" filename="libgazebo_ros_ray_sensor.so">
+    -        <ros><remapping>~/out=scan</remapping></ros>
+    +        <ros><remapping>~/out:=scan</remapping></ros>
+             <output_type>sensor_msgs/LaserScan</output_type>
+           </plugin>
+         </sensor>
+       </gazebo>
+     </robot>
     ```
     """
 

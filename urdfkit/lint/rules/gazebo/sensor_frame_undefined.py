@@ -21,33 +21,19 @@ class SensorFrameUndefined(RobotRule):
     transform.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="camera"/>
-      <gazebo reference="camera">
-        <sensor name="eye" type="camera">
-          <plugin name="eye" filename="libgazebo_ros_camera.so">
-            <cameraName>eye</cameraName>
-            <frameName>camera_link</frameName>
-          </plugin>
-        </sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="camera"/>
-      <gazebo reference="camera">
-        <sensor name="eye" type="camera">
-          <plugin name="eye" filename="libgazebo_ros_camera.so">
-            <cameraName>eye</cameraName>
-            <frameName>camera</frameName>
-          </plugin>
-        </sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="camera"/>
+       <gazebo reference="camera">
+         <sensor name="eye" type="camera">
+           <plugin name="eye" filename="libgazebo_ros_camera.so">
+             <cameraName>eye</cameraName>
+    -        <frameName>camera_link</frameName>
+    +        <frameName>camera</frameName>
+           </plugin>
+         </sensor>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -24,37 +24,22 @@ class SensorRangeInvalid(RobotRule):
     The sensor measures nothing, and ``urdfkit sim`` omits it.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="eye"/>
-      <gazebo reference="eye">
-        <sensor name="eye" type="camera">
-          <camera>
-            <clip>
-              <near>10</near>
-              <far>0.1</far>
-            </clip>
-          </camera>
-        </sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="eye"/>
-      <gazebo reference="eye">
-        <sensor name="eye" type="camera">
-          <camera>
-            <clip>
-              <near>0.1</near>
-              <far>10</far>
-            </clip>
-          </camera>
-        </sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="eye"/>
+       <gazebo reference="eye">
+         <sensor name="eye" type="camera">
+           <camera>
+             <clip>
+    -          <near>10</near>
+    -          <far>0.1</far>
+    +          <near>0.1</near>
+    +          <far>10</far>
+             </clip>
+           </camera>
+         </sensor>
+       </gazebo>
+     </robot>
     ```
     """
 

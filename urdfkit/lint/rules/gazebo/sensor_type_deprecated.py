@@ -17,29 +17,17 @@ class SensorTypeDeprecated(RobotRule):
     Gazebo Sim reports "Sensor type not supported yet" and publishes nothing.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="laser"/>
-      <gazebo reference="laser">
-        <sensor name="laser" type="ray"/>
-      </gazebo>
-      <gazebo>
-        <plugin name="gz::sim::systems::JointStatePublisher" filename="gz-sim-joint-state-publisher-system"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="laser"/>
-      <gazebo reference="laser">
-        <sensor name="laser" type="gpu_lidar"/>
-      </gazebo>
-      <gazebo>
-        <plugin name="gz::sim::systems::JointStatePublisher" filename="gz-sim-joint-state-publisher-system"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="laser"/>
+       <gazebo reference="laser">
+    -    <sensor name="laser" type="ray"/>
+    +    <sensor name="laser" type="gpu_lidar"/>
+       </gazebo>
+       <gazebo>
+         <plugin name="gz::sim::systems::JointStatePublisher" filename="gz-sim-joint-state-publisher-system"/>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -36,23 +36,14 @@ class SensorTypeUnknown(RobotRule):
     Gazebo reports "Unable to create sensor" and publishes nothing.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camra"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camera"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="mast"/>
+       <gazebo reference="mast">
+    -    <sensor name="eye" type="camra"/>
+    +    <sensor name="eye" type="camera"/>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

@@ -17,25 +17,16 @@ class SensorsShareTopic(RobotRule):
     The usual cause is a sensor macro with a fixed topic.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="left_eye" type="camera"><topic>image</topic></sensor>
-        <sensor name="right_eye" type="camera"><topic>image</topic></sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="left_eye" type="camera"><topic>left/image</topic></sensor>
-        <sensor name="right_eye" type="camera"><topic>right/image</topic></sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="mast"/>
+       <gazebo reference="mast">
+    -    <sensor name="left_eye" type="camera"><topic>image</topic></sensor>
+    -    <sensor name="right_eye" type="camera"><topic>image</topic></sensor>
+    +    <sensor name="left_eye" type="camera"><topic>left/image</topic></sensor>
+    +    <sensor name="right_eye" type="camera"><topic>right/image</topic></sensor>
+       </gazebo>
+     </robot>
     ```
     """
 

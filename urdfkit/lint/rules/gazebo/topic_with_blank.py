@@ -23,23 +23,14 @@ class TopicWithBlank(RobotRule):
     ROS throws "invalid topic name" and Gazebo does not advertise the topic, so no program receives the sensor data.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camera"><topic>front camera</topic></sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="mast"/>
-      <gazebo reference="mast">
-        <sensor name="eye" type="camera"><topic>front_camera</topic></sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="mast"/>
+       <gazebo reference="mast">
+    -    <sensor name="eye" type="camera"><topic>front camera</topic></sensor>
+    +    <sensor name="eye" type="camera"><topic>front_camera</topic></sensor>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

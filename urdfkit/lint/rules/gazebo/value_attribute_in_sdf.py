@@ -17,28 +17,17 @@ class ValueAttributeInSdf(RobotRule):
     SDF reads the text of an element, which is empty here, and uses the default value.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="laser"/>
-      <gazebo reference="laser">
-        <sensor name="laser" type="ray">
-          <update_rate value="20"/>
-        </sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="laser"/>
-      <gazebo reference="laser">
-        <mu1 value="1"/>
-        <sensor name="laser" type="ray">
-          <update_rate>20</update_rate>
-        </sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="laser"/>
+       <gazebo reference="laser">
+    +    <mu1 value="1"/>
+         <sensor name="laser" type="ray">
+    -      <update_rate value="20"/>
+    +      <update_rate>20</update_rate>
+         </sensor>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

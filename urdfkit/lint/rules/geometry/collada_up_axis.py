@@ -19,21 +19,13 @@ class ColladaUpAxis(RobotRule):
     side in another.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="meshes/lying.dae"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="meshes/standing.dae"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><mesh filename="meshes/lying.dae"/></geometry></visual>
+    +    <visual><geometry><mesh filename="meshes/standing.dae"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

@@ -45,36 +45,20 @@ class CollisionUnlikeVisual(RobotRule):
     changed in only one of the two shapes.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-        <visual>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </visual>
-        <collision>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </collision>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-        <visual>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </visual>
-        <collision>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </collision>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="wheel">
+         <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+         <visual>
+           <origin rpy="1.5707963267948966 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+         </visual>
+         <collision>
+    +      <origin rpy="1.5707963267948966 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+         </collision>
+       </link>
+     </robot>
     ```
     """
 

@@ -22,27 +22,16 @@ class MaterialInvisible(RobotRule):
     The fourth number is the opacity, not the transparency: 1 is opaque. The link exists and collides, but is not drawn.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <visual>
-          <geometry><box size="1 1 1"/></geometry>
-          <material name="red"><color rgba="1 0 0 0"/></material>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <visual>
-          <geometry><box size="1 1 1"/></geometry>
-          <material name="red"><color rgba="1 0 0 1"/></material>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base">
+         <visual>
+           <geometry><box size="1 1 1"/></geometry>
+    -      <material name="red"><color rgba="1 0 0 0"/></material>
+    +      <material name="red"><color rgba="1 0 0 1"/></material>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -32,30 +32,18 @@ class MaterialUndefined(RobotRule):
     check_urdf warns, RViz shows the shape in a default colour, and other readers reject the robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual>
-          <geometry><sphere radius="0.1"/></geometry>
-          <material name="orange"/>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <material name="orange">
-        <color rgba="1 0.5 0 1"/>
-      </material>
-      <link name="base">
-        <visual>
-          <geometry><sphere radius="0.1"/></geometry>
-          <material name="orange"/>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+    +  <material name="orange">
+    +    <color rgba="1 0.5 0 1"/>
+    +  </material>
+       <link name="base">
+         <visual>
+           <geometry><sphere radius="0.1"/></geometry>
+           <material name="orange"/>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

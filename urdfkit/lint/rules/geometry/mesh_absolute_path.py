@@ -18,21 +18,13 @@ class MeshAbsolutePath(RobotRule):
     The path does not exist on other machines or for other users.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="file:///home/me/ws/src/arm/meshes/base.stl"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><mesh filename="file:///home/me/ws/src/arm/meshes/base.stl"/></geometry></visual>
+    +    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -55,21 +55,13 @@ class MeshCorrupt(RobotRule):
     Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="meshes/pointer.stl"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="meshes/whole.stl"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><mesh filename="meshes/pointer.stl"/></geometry></visual>
+    +    <visual><geometry><mesh filename="meshes/whole.stl"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

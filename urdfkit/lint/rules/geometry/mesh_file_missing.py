@@ -25,21 +25,13 @@ class MeshFileMissing(RobotRule):
     on file systems that ignore case.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="meshes/base.stl"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="meshes/Base.stl"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><mesh filename="meshes/base.stl"/></geometry></visual>
+    +    <visual><geometry><mesh filename="meshes/Base.stl"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

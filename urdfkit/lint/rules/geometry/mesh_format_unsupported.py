@@ -23,21 +23,13 @@ class MeshFormatUnsupported(RobotRule):
     The mesh is not shown, or the model is rejected.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="base.step"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><mesh filename="base.step"/></geometry></visual>
+    +    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

@@ -20,47 +20,26 @@ class MeshOfOtherLink(RobotRule):
     A part is drawn in the shape of another part, or collides with it. The usual cause is a copied ``<mesh>``.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="world"/>
-      <link name="base">
-        <visual><geometry><mesh filename="visual/base.stl"/></geometry></visual>
-        <collision><geometry><mesh filename="collision/base.stl"/></geometry></collision>
-      </link>
-      <link name="upper_arm">
-        <visual><geometry><mesh filename="visual/upper_arm.stl"/></geometry></visual>
-        <collision><geometry><mesh filename="collision/upper_arm.stl"/></geometry></collision>
-      </link>
-      <link name="forearm">
-        <visual><geometry><mesh filename="visual/upper_arm.stl"/></geometry></visual>
-        <collision><geometry><mesh filename="collision/forearm.stl"/></geometry></collision>
-      </link>
-      <joint name="mount" type="fixed"><parent link="world"/><child link="base"/></joint>
-      <joint name="first" type="fixed"><parent link="base"/><child link="upper_arm"/></joint>
-      <joint name="second" type="fixed"><parent link="upper_arm"/><child link="forearm"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="world"/>
-      <link name="base">
-        <visual><geometry><mesh filename="visual/base.stl"/></geometry></visual>
-        <collision><geometry><mesh filename="collision/base.stl"/></geometry></collision>
-      </link>
-      <link name="upper_arm">
-        <visual><geometry><mesh filename="visual/upper_arm.stl"/></geometry></visual>
-        <collision><geometry><mesh filename="collision/upper_arm.stl"/></geometry></collision>
-      </link>
-      <link name="forearm">
-        <visual><geometry><mesh filename="visual/forearm.stl"/></geometry></visual>
-        <collision><geometry><mesh filename="collision/forearm.stl"/></geometry></collision>
-      </link>
-      <joint name="mount" type="fixed"><parent link="world"/><child link="base"/></joint>
-      <joint name="first" type="fixed"><parent link="base"/><child link="upper_arm"/></joint>
-      <joint name="second" type="fixed"><parent link="upper_arm"/><child link="forearm"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="world"/>
+       <link name="base">
+         <visual><geometry><mesh filename="visual/base.stl"/></geometry></visual>
+         <collision><geometry><mesh filename="collision/base.stl"/></geometry></collision>
+       </link>
+       <link name="upper_arm">
+         <visual><geometry><mesh filename="visual/upper_arm.stl"/></geometry></visual>
+         <collision><geometry><mesh filename="collision/upper_arm.stl"/></geometry></collision>
+       </link>
+       <link name="forearm">
+    -    <visual><geometry><mesh filename="visual/upper_arm.stl"/></geometry></visual>
+    +    <visual><geometry><mesh filename="visual/forearm.stl"/></geometry></visual>
+         <collision><geometry><mesh filename="collision/forearm.stl"/></geometry></collision>
+       </link>
+       <joint name="mount" type="fixed"><parent link="world"/><child link="base"/></joint>
+       <joint name="first" type="fixed"><parent link="base"/><child link="upper_arm"/></joint>
+       <joint name="second" type="fixed"><parent link="upper_arm"/><child link="forearm"/></joint>
+     </robot>
     ```
     """
 

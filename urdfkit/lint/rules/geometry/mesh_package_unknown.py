@@ -20,21 +20,13 @@ class MeshPackageUnknown(RobotRule):
     package of the workspace or a common package is an error.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><mesh filename="package://arm_that_is_nowhere/base.stl"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><mesh filename="package://arm_that_is_nowhere/base.stl"/></geometry></visual>
+    +    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

@@ -42,37 +42,21 @@ class MeshScaleSuspect(RobotRule):
     CAD programs often export millimetres, but URDF expects metres. The part is huge, or too small to see.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
-      </link>
-      <link name="tool">
-        <visual><geometry><mesh filename="meshes/block_in_mm.stl"/></geometry></visual>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="tool"/>
-        <origin xyz="0 0 0.1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
-      </link>
-      <link name="tool">
-        <visual><geometry><mesh filename="meshes/block_in_mm.stl" scale="0.001 0.001 0.001"/></geometry></visual>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="tool"/>
-        <origin xyz="0 0 0.1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
+       </link>
+       <link name="tool">
+    -    <visual><geometry><mesh filename="meshes/block_in_mm.stl"/></geometry></visual>
+    +    <visual><geometry><mesh filename="meshes/block_in_mm.stl" scale="0.001 0.001 0.001"/></geometry></visual>
+       </link>
+       <joint name="mount" type="fixed">
+         <parent link="base"/>
+         <child link="tool"/>
+         <origin xyz="0 0 0.1"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

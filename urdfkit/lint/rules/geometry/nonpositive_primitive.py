@@ -33,21 +33,13 @@ class NonpositivePrimitive(RobotRule):
     collide.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><cylinder radius="0.1" length="0"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><cylinder radius="0.1" length="0.001"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+    -    <visual><geometry><cylinder radius="0.1" length="0"/></geometry></visual>
+    +    <visual><geometry><cylinder radius="0.1" length="0.001"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

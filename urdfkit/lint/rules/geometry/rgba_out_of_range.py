@@ -17,23 +17,14 @@ class RgbaOutOfRange(RobotRule):
     URDF colours range from 0 to 1, not from 0 to 255: a component above 1 counts as 1, and the shape is white.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <material name="orange">
-        <color rgba="255 127.5 0 1"/>
-      </material>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <material name="orange">
-        <color rgba="1 0.5 0 1"/>
-      </material>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <material name="orange">
+    -    <color rgba="255 127.5 0 1"/>
+    +    <color rgba="1 0.5 0 1"/>
+       </material>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

@@ -29,37 +29,21 @@ class ShapesApart(RobotRule):
     cause is a missing decimal point or a wrong unit.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="arm">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.001667" ixy="0" ixz="0" iyy="0.001667" iyz="0" izz="0.001667"/>
-        </inertial>
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-        <collision>
-          <origin xyz="15 0 0"/>
-          <geometry><box size="0.1 0.1 0.1"/></geometry>
-        </collision>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="arm">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.001667" ixy="0" ixz="0" iyy="0.001667" iyz="0" izz="0.001667"/>
-        </inertial>
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-        <collision>
-          <origin xyz="0.015 0 0"/>
-          <geometry><box size="0.1 0.1 0.1"/></geometry>
-        </collision>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="arm">
+         <inertial>
+           <mass value="1"/>
+           <inertia ixx="0.001667" ixy="0" ixz="0" iyy="0.001667" iyz="0" izz="0.001667"/>
+         </inertial>
+         <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+         <collision>
+    -      <origin xyz="15 0 0"/>
+    +      <origin xyz="0.015 0 0"/>
+           <geometry><box size="0.1 0.1 0.1"/></geometry>
+         </collision>
+       </link>
+     </robot>
     ```
     """
 

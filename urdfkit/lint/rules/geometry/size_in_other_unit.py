@@ -29,41 +29,23 @@ class SizeInOtherUnit(RobotRule):
     The shape hides the robot and collides with everything. Usually its size was written in millimetres.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"><visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual></link>
-      <link name="upper_arm">
-        <visual>
-          <geometry><cylinder radius="40" length="300"/></geometry>
-        </visual>
-      </link>
-      <link name="forearm"><visual><geometry><cylinder radius="0.04" length="0.3"/></geometry></visual></link>
-      <joint name="shoulder_joint" type="fixed">
-        <parent link="base"/><child link="upper_arm"/><origin xyz="0 0 0.1"/>
-      </joint>
-      <joint name="elbow_joint" type="fixed">
-        <parent link="upper_arm"/><child link="forearm"/><origin xyz="0 0 0.3"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"><visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual></link>
-      <link name="upper_arm">
-        <visual>
-          <geometry><cylinder radius="0.04" length="0.3"/></geometry>
-        </visual>
-      </link>
-      <link name="forearm"><visual><geometry><cylinder radius="0.04" length="0.3"/></geometry></visual></link>
-      <joint name="shoulder_joint" type="fixed">
-        <parent link="base"/><child link="upper_arm"/><origin xyz="0 0 0.1"/>
-      </joint>
-      <joint name="elbow_joint" type="fixed">
-        <parent link="upper_arm"/><child link="forearm"/><origin xyz="0 0 0.3"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"><visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual></link>
+       <link name="upper_arm">
+         <visual>
+    -      <geometry><cylinder radius="40" length="300"/></geometry>
+    +      <geometry><cylinder radius="0.04" length="0.3"/></geometry>
+         </visual>
+       </link>
+       <link name="forearm"><visual><geometry><cylinder radius="0.04" length="0.3"/></geometry></visual></link>
+       <joint name="shoulder_joint" type="fixed">
+         <parent link="base"/><child link="upper_arm"/><origin xyz="0 0 0.1"/>
+       </joint>
+       <joint name="elbow_joint" type="fixed">
+         <parent link="upper_arm"/><child link="forearm"/><origin xyz="0 0 0.3"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -21,27 +21,16 @@ class TextureMissing(RobotRule):
     image is usually missing because only the mesh was copied or committed.
 
     ## Example
-    ```xml
-    <robot name="crate">
-      <link name="base">
-        <visual>
-          <geometry><box size="1 1 1"/></geometry>
-          <material name="wood"><texture filename="textures/wod.png"/></material>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="crate">
-      <link name="base">
-        <visual>
-          <geometry><box size="1 1 1"/></geometry>
-          <material name="wood"><color rgba="0.6 0.4 0.2 1"/></material>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="crate">
+       <link name="base">
+         <visual>
+           <geometry><box size="1 1 1"/></geometry>
+    -      <material name="wood"><texture filename="textures/wod.png"/></material>
+    +      <material name="wood"><color rgba="0.6 0.4 0.2 1"/></material>
+         </visual>
+       </link>
+     </robot>
     ```
     """
 

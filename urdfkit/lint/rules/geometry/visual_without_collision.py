@@ -17,54 +17,29 @@ class VisualWithoutCollision(RobotRule):
     ground.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
-        <collision><geometry><box size="0.3 0.2 0.1"/></geometry></collision>
-      </link>
-      <link name="mast">
-        <inertial>
-          <mass value="0.5"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.0001"/>
-        </inertial>
-        <visual><geometry><cylinder radius="0.02" length="0.5"/></geometry></visual>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="mast"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
-        <collision><geometry><box size="0.3 0.2 0.1"/></geometry></collision>
-      </link>
-      <link name="mast">
-        <inertial>
-          <mass value="0.5"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.0001"/>
-        </inertial>
-        <visual><geometry><cylinder radius="0.02" length="0.5"/></geometry></visual>
-        <collision><geometry><cylinder radius="0.02" length="0.5"/></geometry></collision>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="mast"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base">
+         <inertial>
+           <mass value="1"/>
+           <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+         <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
+         <collision><geometry><box size="0.3 0.2 0.1"/></geometry></collision>
+       </link>
+       <link name="mast">
+         <inertial>
+           <mass value="0.5"/>
+           <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.0001"/>
+         </inertial>
+         <visual><geometry><cylinder radius="0.02" length="0.5"/></geometry></visual>
+    +    <collision><geometry><cylinder radius="0.02" length="0.5"/></geometry></collision>
+       </link>
+       <joint name="mount" type="fixed">
+         <parent link="base"/>
+         <child link="mast"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -19,44 +19,24 @@ class WheelOffItsAxis(RobotRule):
     offset belongs to the joint.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="world"/>
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0013"/></inertial>
-        <visual>
-          <origin xyz="0.15 0 0.075"/>
-          <geometry><cylinder radius="0.05" length="0.04"/></geometry>
-        </visual>
-        <collision><geometry><cylinder radius="0.05" length="0.04"/></geometry></collision>
-      </link>
-      <joint name="axle" type="continuous">
-        <parent link="world"/>
-        <child link="wheel"/>
-        <origin xyz="0 0.2 0" rpy="-1.5707963267948966 0 0"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="world"/>
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0013"/></inertial>
-        <visual>
-          <geometry><cylinder radius="0.05" length="0.04"/></geometry>
-        </visual>
-        <collision><geometry><cylinder radius="0.05" length="0.04"/></geometry></collision>
-      </link>
-      <joint name="axle" type="continuous">
-        <parent link="world"/>
-        <child link="wheel"/>
-        <origin xyz="0 0.2 0" rpy="-1.5707963267948966 0 0"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="world"/>
+       <link name="wheel">
+         <inertial><mass value="1"/><inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0013"/></inertial>
+         <visual>
+    -      <origin xyz="0.15 0 0.075"/>
+           <geometry><cylinder radius="0.05" length="0.04"/></geometry>
+         </visual>
+         <collision><geometry><cylinder radius="0.05" length="0.04"/></geometry></collision>
+       </link>
+       <joint name="axle" type="continuous">
+         <parent link="world"/>
+         <child link="wheel"/>
+         <origin xyz="0 0.2 0" rpy="-1.5707963267948966 0 0"/>
+         <axis xyz="0 0 1"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

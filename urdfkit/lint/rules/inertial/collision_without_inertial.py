@@ -15,45 +15,26 @@ class CollisionWithoutInertial(RobotRule):
     Gazebo keeps such a link only if it merges the link into another one at a fixed joint.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-      <link name="bumper">
-        <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="bumper"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-      <link name="bumper">
-        <inertial>
-          <mass value="0.1"/>
-          <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0002" iyz="0" izz="0.0002"/>
-        </inertial>
-        <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="bumper"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base">
+         <inertial>
+           <mass value="1"/>
+           <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+       </link>
+       <link name="bumper">
+    +    <inertial>
+    +      <mass value="0.1"/>
+    +      <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0002" iyz="0" izz="0.0002"/>
+    +    </inertial>
+         <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+       </link>
+       <joint name="mount" type="fixed">
+         <parent link="base"/>
+         <child link="bumper"/>
+       </joint>
+     </robot>
     ```
     """
 

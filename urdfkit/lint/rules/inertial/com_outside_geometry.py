@@ -41,36 +41,20 @@ class ComOutsideGeometry(RobotRule):
     not copied to ``<inertial>``.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="chassis">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual>
-          <origin xyz="0 0 0.15"/>
-          <geometry><box size="0.3 0.2 0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="chassis">
-        <inertial>
-          <origin xyz="0 0 0.15"/>
-          <mass value="1"/>
-          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual>
-          <origin xyz="0 0 0.15"/>
-          <geometry><box size="0.3 0.2 0.1"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="chassis">
+         <inertial>
+    +      <origin xyz="0 0 0.15"/>
+           <mass value="1"/>
+           <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+         <visual>
+           <origin xyz="0 0 0.15"/>
+           <geometry><box size="0.3 0.2 0.1"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
     """
 

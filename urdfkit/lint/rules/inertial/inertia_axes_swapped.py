@@ -30,35 +30,20 @@ class InertiaAxesSwapped(RobotRule):
     rotated, but its tensor is still that of a cylinder along z.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="wheel">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.00263" ixy="0" ixz="0" iyy="0.00263" iyz="0" izz="0.005"/>
-        </inertial>
-        <collision>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </collision>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="wheel">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.00263" ixy="0" ixz="0" iyy="0.005" iyz="0" izz="0.00263"/>
-        </inertial>
-        <collision>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </collision>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="wheel">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="0.00263" ixy="0" ixz="0" iyy="0.00263" iyz="0" izz="0.005"/>
+    +      <inertia ixx="0.00263" ixy="0" ixz="0" iyy="0.005" iyz="0" izz="0.00263"/>
+         </inertial>
+         <collision>
+           <origin rpy="1.5707963267948966 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+         </collision>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -20,53 +20,34 @@ class InertiaCopyPaste(RobotRule):
     A tensor depends on shape and mass, so a shared tensor was copied instead of computed.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual><geometry><sphere radius="0.2"/></geometry></visual>
-      </link>
-      <link name="upper">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual><geometry><box size="0.3 0.2 0.2"/></geometry></visual>
-      </link>
-      <link name="lower">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
-      </link>
-      <joint name="a" type="fixed"><parent link="base"/><child link="upper"/></joint>
-      <joint name="b" type="fixed"><parent link="upper"/><child link="lower"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.016" ixy="0" ixz="0" iyy="0.016" iyz="0" izz="0.016"/>
-        </inertial>
-        <visual><geometry><sphere radius="0.2"/></geometry></visual>
-      </link>
-      <link name="upper">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.00667" ixy="0" ixz="0" iyy="0.01083" iyz="0" izz="0.01083"/>
-        </inertial>
-        <visual><geometry><box size="0.3 0.2 0.2"/></geometry></visual>
-      </link>
-      <joint name="a" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+    +      <inertia ixx="0.016" ixy="0" ixz="0" iyy="0.016" iyz="0" izz="0.016"/>
+         </inertial>
+         <visual><geometry><sphere radius="0.2"/></geometry></visual>
+       </link>
+       <link name="upper">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+    +      <inertia ixx="0.00667" ixy="0" ixz="0" iyy="0.01083" iyz="0" izz="0.01083"/>
+         </inertial>
+         <visual><geometry><box size="0.3 0.2 0.2"/></geometry></visual>
+       </link>
+    -  <link name="lower">
+    -    <inertial>
+    -      <mass value="1"/>
+    -      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+    -    </inertial>
+    -    <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
+    -  </link>
+       <joint name="a" type="fixed"><parent link="base"/><child link="upper"/></joint>
+    -  <joint name="b" type="fixed"><parent link="upper"/><child link="lower"/></joint>
+     </robot>
     ```
     """
 

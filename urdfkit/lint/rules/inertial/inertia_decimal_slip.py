@@ -29,29 +29,17 @@ class InertiaDecimalSlip(RobotRule):
     The link rotates about one axis as if it were much lighter or heavier than it is.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="3"/>
-          <inertia ixx="0.05" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.0052"/>
-        </inertial>
-        <visual><geometry><box size="0.32 0.31 0.3"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="3"/>
-          <inertia ixx="0.05" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.052"/>
-        </inertial>
-        <visual><geometry><box size="0.32 0.31 0.3"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <inertial>
+           <mass value="3"/>
+    -      <inertia ixx="0.05" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.0052"/>
+    +      <inertia ixx="0.05" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.052"/>
+         </inertial>
+         <visual><geometry><box size="0.32 0.31 0.3"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

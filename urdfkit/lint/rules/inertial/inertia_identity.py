@@ -24,29 +24,17 @@ class InertiaIdentity(RobotRule):
     1 kg·m² is the inertia of a refrigerator. Wheels and fingers with this inertia hardly accelerate.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="arm">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
-        </inertial>
-        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="arm">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.001667" ixy="0" ixz="0" iyy="0.014167" iyz="0" izz="0.014167"/>
-        </inertial>
-        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="arm">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+    +      <inertia ixx="0.001667" ixy="0" ixz="0" iyy="0.014167" iyz="0" izz="0.014167"/>
+         </inertial>
+         <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -25,27 +25,16 @@ class InertiaNotPositiveDefinite(RobotRule):
     tensor and the simulation diverges; MuJoCo and Gazebo reject it.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0.05" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0.0005" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="0.01" ixy="0.05" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+    +      <inertia ixx="0.01" ixy="0.0005" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+       </link>
+     </robot>
     ```
     """
 

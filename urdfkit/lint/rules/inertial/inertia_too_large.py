@@ -34,29 +34,17 @@ class InertiaTooLarge(RobotRule):
     g·mm².
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="wheel">
-        <inertial>
-          <mass value="0.2"/>
-          <inertia ixx="0.4" ixy="0" ixz="0" iyy="0.4" iyz="0" izz="0.5"/>
-        </inertial>
-        <visual><geometry><cylinder radius="0.3" length="0.1"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="wheel">
-        <inertial>
-          <mass value="0.2"/>
-          <inertia ixx="0.004667" ixy="0" ixz="0" iyy="0.004667" iyz="0" izz="0.009"/>
-        </inertial>
-        <visual><geometry><cylinder radius="0.3" length="0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="wheel">
+         <inertial>
+           <mass value="0.2"/>
+    -      <inertia ixx="0.4" ixy="0" ixz="0" iyy="0.4" iyz="0" izz="0.5"/>
+    +      <inertia ixx="0.004667" ixy="0" ixz="0" iyy="0.004667" iyz="0" izz="0.009"/>
+         </inertial>
+         <visual><geometry><cylinder radius="0.3" length="0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -30,29 +30,17 @@ class InertiaTooSmall(RobotRule):
     Light parts on strong joints make simulations jitter, and the integrator needs tiny steps.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="arm">
-        <inertial>
-          <mass value="2"/>
-          <inertia ixx="0.000001" ixy="0" ixz="0" iyy="0.000001" iyz="0" izz="0.000001"/>
-        </inertial>
-        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="arm">
-        <inertial>
-          <mass value="2"/>
-          <inertia ixx="0.003333" ixy="0" ixz="0" iyy="0.028333" iyz="0" izz="0.028333"/>
-        </inertial>
-        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="arm">
+         <inertial>
+           <mass value="2"/>
+    -      <inertia ixx="0.000001" ixy="0" ixz="0" iyy="0.000001" iyz="0" izz="0.000001"/>
+    +      <inertia ixx="0.003333" ixy="0" ixz="0" iyy="0.028333" iyz="0" izz="0.028333"/>
+         </inertial>
+         <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -18,27 +18,16 @@ class InertiaTransposed(RobotRule):
     and sdformat reject it, and other simulators compute a wrong motion.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="2"/>
-          <inertia ixx="0.02" ixy="0.03" ixz="0.04" iyy="0" iyz="0" izz="0"/>
-        </inertial>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="2"/>
-          <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/>
-        </inertial>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <inertial>
+           <mass value="2"/>
+    -      <inertia ixx="0.02" ixy="0.03" ixz="0.04" iyy="0" iyz="0" izz="0"/>
+    +      <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/>
+         </inertial>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -29,27 +29,16 @@ class InertiaTriangleInequality(RobotRule):
     parsers, but then joints shake and wheels hop. MuJoCo rejects it.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="chassis">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.4" ixy="0.1" ixz="0.1" iyy="0.4" iyz="0.1" izz="0.2"/>
-        </inertial>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="chassis">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.4" ixy="0" ixz="0" iyy="0.4" iyz="0" izz="0.2"/>
-        </inertial>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="chassis">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="0.4" ixy="0.1" ixz="0.1" iyy="0.4" iyz="0.1" izz="0.2"/>
+    +      <inertia ixx="0.4" ixy="0" ixz="0" iyy="0.4" iyz="0" izz="0.2"/>
+         </inertial>
+       </link>
+     </robot>
     ```
     """
 

@@ -16,39 +16,22 @@ class InertiaZero(RobotRule):
     Nothing resists the rotation of the link: simulators divide by zero, and MuJoCo rejects the model.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="world"/>
-      <link name="arm">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>
-        </inertial>
-      </link>
-      <joint name="elbow" type="continuous">
-        <parent link="world"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="world"/>
-      <link name="arm">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.002"/>
-        </inertial>
-      </link>
-      <joint name="elbow" type="continuous">
-        <parent link="world"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="world"/>
+       <link name="arm">
+         <inertial>
+           <mass value="1"/>
+    -      <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>
+    +      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.002"/>
+         </inertial>
+       </link>
+       <joint name="elbow" type="continuous">
+         <parent link="world"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

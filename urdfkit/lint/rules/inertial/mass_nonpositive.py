@@ -20,27 +20,16 @@ class MassNonpositive(RobotRule):
     model.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="-1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <inertial>
+    -      <mass value="-1"/>
+    +      <mass value="1"/>
+           <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+       </link>
+     </robot>
     ```
     """
 

@@ -28,29 +28,18 @@ class MassVsVolume(RobotRule):
     Usually the mass was written in grams instead of kilograms, or the size in millimetres instead of metres.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="chassis">
-        <inertial>
-          <mass value="2500"/>
-          <inertia ixx="10.417" ixy="0" ixz="0" iyy="20.833" iyz="0" izz="27.083"/>
-        </inertial>
-        <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="chassis">
-        <inertial>
-          <mass value="2.5"/>
-          <inertia ixx="0.010417" ixy="0" ixz="0" iyy="0.020833" iyz="0" izz="0.027083"/>
-        </inertial>
-        <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="chassis">
+         <inertial>
+    -      <mass value="2500"/>
+    -      <inertia ixx="10.417" ixy="0" ixz="0" iyy="20.833" iyz="0" izz="27.083"/>
+    +      <mass value="2.5"/>
+    +      <inertia ixx="0.010417" ixy="0" ixz="0" iyy="0.020833" iyz="0" izz="0.027083"/>
+         </inertial>
+         <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

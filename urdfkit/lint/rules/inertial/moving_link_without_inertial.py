@@ -25,47 +25,27 @@ class MovingLinkWithoutInertial(RobotRule):
     mass and warns.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-      <link name="wheel">
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-      </link>
-      <joint name="axle" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-      <link name="wheel">
-        <inertial>
-          <mass value="0.2"/>
-          <inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0008"/>
-        </inertial>
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-      </link>
-      <joint name="axle" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base">
+         <inertial>
+           <mass value="1"/>
+           <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+       </link>
+       <link name="wheel">
+    +    <inertial>
+    +      <mass value="0.2"/>
+    +      <inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0008"/>
+    +    </inertial>
+         <visual><geometry><sphere radius="0.1"/></geometry></visual>
+       </link>
+       <joint name="axle" type="continuous">
+         <parent link="base"/>
+         <child link="wheel"/>
+         <axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -22,49 +22,27 @@ class AxesOnOneLine(RobotRule):
     kinematics have no unique solution. Usually the ``<axis>`` was copied from the neighbouring joint.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-      </link>
-      <link name="upper">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-      </link>
-      <link name="lower">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-      </link>
-      <joint name="shoulder" type="revolute">
-        <parent link="base"/><child link="upper"/>
-        <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="elbow" type="revolute">
-        <parent link="upper"/><child link="lower"/><origin xyz="0 0 0.3"/>
-        <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-      </link>
-      <link name="upper">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-      </link>
-      <link name="lower">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-      </link>
-      <joint name="shoulder" type="revolute">
-        <parent link="base"/><child link="upper"/>
-        <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="elbow" type="revolute">
-        <parent link="upper"/><child link="lower"/><origin xyz="0 0 0.3"/>
-        <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+       </link>
+       <link name="upper">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+       </link>
+       <link name="lower">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+       </link>
+       <joint name="shoulder" type="revolute">
+         <parent link="base"/><child link="upper"/>
+         <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+       <joint name="elbow" type="revolute">
+         <parent link="upper"/><child link="lower"/><origin xyz="0 0 0.3"/>
+    -    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
+    +    <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+     </robot>
     ```
     """
 

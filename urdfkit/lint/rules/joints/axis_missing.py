@@ -19,34 +19,19 @@ class AxisMissing(RobotRule):
     default.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="world"/>
-      <link name="arm">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-      </link>
-      <joint name="elbow" type="continuous">
-        <parent link="world"/>
-        <child link="arm"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="world"/>
-      <link name="arm">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-      </link>
-      <joint name="elbow" type="continuous">
-        <parent link="world"/>
-        <child link="arm"/>
-        <axis xyz="1 0 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="world"/>
+       <link name="arm">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+         <visual><geometry><sphere radius="0.1"/></geometry></visual>
+       </link>
+       <joint name="elbow" type="continuous">
+         <parent link="world"/>
+         <child link="arm"/>
+    +    <axis xyz="1 0 0"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -22,41 +22,23 @@ class AxisNotAlongWheel(RobotRule):
     The wheel tumbles instead of rolling, and the robot does not drive.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="world"/>
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-        <visual>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </visual>
-      </link>
-      <joint name="axle" type="continuous">
-        <parent link="world"/>
-        <child link="wheel"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="world"/>
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-        <visual>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </visual>
-      </link>
-      <joint name="axle" type="continuous">
-        <parent link="world"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="world"/>
+       <link name="wheel">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+         <visual>
+           <origin rpy="1.5707963267948966 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+         </visual>
+       </link>
+       <joint name="axle" type="continuous">
+         <parent link="world"/>
+         <child link="wheel"/>
+    -    <axis xyz="0 0 1"/>
+    +    <axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
     """
 

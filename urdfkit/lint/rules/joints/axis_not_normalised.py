@@ -18,29 +18,17 @@ class AxisNotNormalised(RobotRule):
     urdfdom and KDL use the vector as written, which scales the motion of the joint by the length of the axis.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 0.70710678 0.70710678"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="continuous">
+         <parent link="base"/>
+         <child link="arm"/>
+    -    <axis xyz="0 1 1"/>
+    +    <axis xyz="0 0.70710678 0.70710678"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -16,28 +16,16 @@ class AxisOrLimitOnFixed(RobotRule):
     The elements have no effect. They may also indicate that the joint type is wrong.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="tool"/>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="tool"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="tool"/>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="tool"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="tool"/>
+       <joint name="mount" type="fixed">
+         <parent link="base"/>
+         <child link="tool"/>
+    -    <axis xyz="0 0 1"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -13,29 +13,17 @@ class AxisZero(RobotRule):
     A zero vector has no direction. MuJoCo rejects the joint; other tools divide by zero or treat the joint as fixed.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 0 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="continuous">
+         <parent link="base"/>
+         <child link="arm"/>
+    -    <axis xyz="0 0 0"/>
+    +    <axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
     """
 

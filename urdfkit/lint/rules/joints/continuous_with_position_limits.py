@@ -18,31 +18,18 @@ class ContinuousWithPositionLimits(RobotRule):
     The limits have no effect: a continuous joint turns without limits.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="10" velocity="2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+    -  <joint name="elbow" type="continuous">
+    +  <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+         <limit lower="-1" upper="1" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -17,33 +17,19 @@ class DynamicsExceedEffort(RobotRule):
     The joint does not move in simulation although its controller works. Usually a decimal point or a unit is wrong.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="2"/>
-        <dynamics damping="5000"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="continuous">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="2"/>
-        <dynamics damping="0.5"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="continuous">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+         <limit effort="10" velocity="2"/>
+    -    <dynamics damping="5000"/>
+    +    <dynamics damping="0.5"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -18,31 +18,18 @@ class EffortOrVelocityZero(RobotRule):
     Simulators enforce the limits: with zero effort the joint cannot hold a load, and with zero velocity it never moves.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="0" velocity="2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+    -    <limit lower="-1" upper="1" effort="0" velocity="2"/>
+    +    <limit lower="-1" upper="1" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
     """
 

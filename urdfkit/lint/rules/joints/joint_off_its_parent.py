@@ -17,95 +17,50 @@ class JointOffItsParent(RobotRule):
     of another link was used, or the joint has the wrong parent link.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="tube" params="name">
-        <link name="${name}">
-          <visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/></geometry></visual>
-          <inertial>
-            <origin xyz="0 0 0.1"/><mass value="1"/>
-            <inertia ixx="0.0036" ixy="0" ixz="0" iyy="0.0036" iyz="0" izz="0.00045"/>
-          </inertial>
-        </link>
-      </xacro:macro>
-      <xacro:tube name="base"/>
-      <xacro:tube name="link_1"/>
-      <xacro:tube name="link_2"/>
-      <xacro:tube name="link_3"/>
-      <xacro:tube name="link_4"/>
-      <xacro:tube name="link_5"/>
-      <joint name="joint_1" type="revolute">
-        <parent link="base"/><child link="link_1"/><axis xyz="0 0 1"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_2" type="revolute">
-        <parent link="link_1"/><child link="link_2"/><axis xyz="0 1 0"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_3" type="revolute">
-        <parent link="link_2"/><child link="link_3"/><axis xyz="0 0 1"/>
-        <origin xyz="0 0 0.25"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_4" type="revolute">
-        <parent link="link_3"/><child link="link_4"/><axis xyz="0 1 0"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_5" type="revolute">
-        <parent link="link_4"/><child link="link_5"/><axis xyz="0 0 1"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="tube" params="name">
-        <link name="${name}">
-          <visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/></geometry></visual>
-          <inertial>
-            <origin xyz="0 0 0.1"/><mass value="1"/>
-            <inertia ixx="0.0036" ixy="0" ixz="0" iyy="0.0036" iyz="0" izz="0.00045"/>
-          </inertial>
-        </link>
-      </xacro:macro>
-      <xacro:tube name="base"/>
-      <xacro:tube name="link_1"/>
-      <xacro:tube name="link_2"/>
-      <xacro:tube name="link_3"/>
-      <xacro:tube name="link_4"/>
-      <xacro:tube name="link_5"/>
-      <joint name="joint_1" type="revolute">
-        <parent link="base"/><child link="link_1"/><axis xyz="0 0 1"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_2" type="revolute">
-        <parent link="link_1"/><child link="link_2"/><axis xyz="0 1 0"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_3" type="revolute">
-        <parent link="link_2"/><child link="link_3"/><axis xyz="0 0 1"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_4" type="revolute">
-        <parent link="link_3"/><child link="link_4"/><axis xyz="0 1 0"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-      <joint name="joint_5" type="revolute">
-        <parent link="link_4"/><child link="link_5"/><axis xyz="0 0 1"/>
-        <origin xyz="0 0 0.2"/>
-        <limit lower="-1" upper="1" effort="10" velocity="1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="tube" params="name">
+         <link name="${name}">
+           <visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/></geometry></visual>
+           <inertial>
+             <origin xyz="0 0 0.1"/><mass value="1"/>
+             <inertia ixx="0.0036" ixy="0" ixz="0" iyy="0.0036" iyz="0" izz="0.00045"/>
+           </inertial>
+         </link>
+       </xacro:macro>
+       <xacro:tube name="base"/>
+       <xacro:tube name="link_1"/>
+       <xacro:tube name="link_2"/>
+       <xacro:tube name="link_3"/>
+       <xacro:tube name="link_4"/>
+       <xacro:tube name="link_5"/>
+       <joint name="joint_1" type="revolute">
+         <parent link="base"/><child link="link_1"/><axis xyz="0 0 1"/>
+         <origin xyz="0 0 0.2"/>
+         <limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+       <joint name="joint_2" type="revolute">
+         <parent link="link_1"/><child link="link_2"/><axis xyz="0 1 0"/>
+         <origin xyz="0 0 0.2"/>
+         <limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+       <joint name="joint_3" type="revolute">
+         <parent link="link_2"/><child link="link_3"/><axis xyz="0 0 1"/>
+    -    <origin xyz="0 0 0.25"/>
+    +    <origin xyz="0 0 0.2"/>
+         <limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+       <joint name="joint_4" type="revolute">
+         <parent link="link_3"/><child link="link_4"/><axis xyz="0 1 0"/>
+         <origin xyz="0 0 0.2"/>
+         <limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+       <joint name="joint_5" type="revolute">
+         <parent link="link_4"/><child link="link_5"/><axis xyz="0 0 1"/>
+         <origin xyz="0 0 0.2"/>
+         <limit lower="-1" upper="1" effort="10" velocity="1"/>
+       </joint>
+     </robot>
     ```
     """
 

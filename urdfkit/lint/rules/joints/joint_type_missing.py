@@ -15,29 +15,17 @@ class JointTypeMissing(RobotRule):
     The attribute has no default: every parser rejects the robot.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="wheel_joint">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="wheel_joint" type="continuous">
-        <parent link="base"/>
-        <child link="wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="wheel"/>
+    -  <joint name="wheel_joint">
+    +  <joint name="wheel_joint" type="continuous">
+         <parent link="base"/>
+         <child link="wheel"/>
+         <axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -35,21 +35,13 @@ class JointTypeUnknown(RobotRule):
     Types are case-sensitive.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="Fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+    -  <joint name="shoulder" type="Fixed"><parent link="base"/><child link="upper"/></joint>
+    +  <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -18,31 +18,18 @@ class LimitEffortOrVelocityMissing(RobotRule):
     Up to URDF 1.1, both attributes are required in every ``<limit>``. Without them, urdfdom rejects the robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="10"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+    -    <limit lower="-1" upper="1" effort="10"/>
+    +    <limit lower="-1" upper="1" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
     """
 

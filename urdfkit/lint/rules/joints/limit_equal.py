@@ -17,31 +17,18 @@ class LimitEqual(RobotRule):
     this and saves solvers a constraint.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit effort="10" velocity="2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+    -    <limit effort="10" velocity="2"/>
+    +    <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
     """
 

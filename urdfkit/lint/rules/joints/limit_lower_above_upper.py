@@ -15,29 +15,17 @@ class LimitLowerAboveUpper(RobotRule):
     No position satisfies both limits. check_urdf, Pinocchio and MuJoCo accept the robot, but the joint jumps or jams.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <limit lower="1.5" upper="-1.5" effort="10" velocity="2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+    -    <limit lower="1.5" upper="-1.5" effort="10" velocity="2"/>
+    +    <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -14,30 +14,17 @@ class LimitMissing(RobotRule):
     ``continuous``.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+    +    <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -19,31 +19,18 @@ class LimitsInDegrees(RobotRule):
     never reaches its limit.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-90" upper="90" effort="10" velocity="2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1.570796" upper="1.570796" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+    -    <limit lower="-90" upper="90" effort="10" velocity="2"/>
+    +    <limit lower="-1.570796" upper="1.570796" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -19,43 +19,24 @@ class MimicBeyondLimits(RobotRule):
     the multiplier or the wrong joint name.
 
     ## Example
-    ```xml
-    <robot name="gripper">
-      <link name="palm"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="prismatic">
-        <parent link="palm"/><child link="left"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-      </joint>
-      <joint name="right_joint" type="prismatic">
-        <parent link="palm"/><child link="right"/>
-        <axis xyz="0 -1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-        <mimic joint="left_joint" multiplier="-1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="gripper">
-      <link name="palm"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="prismatic">
-        <parent link="palm"/><child link="left"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-      </joint>
-      <joint name="right_joint" type="prismatic">
-        <parent link="palm"/><child link="right"/>
-        <axis xyz="0 -1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-        <mimic joint="left_joint"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="gripper">
+       <link name="palm"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="prismatic">
+         <parent link="palm"/><child link="left"/>
+         <axis xyz="0 1 0"/>
+         <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+       </joint>
+       <joint name="right_joint" type="prismatic">
+         <parent link="palm"/><child link="right"/>
+         <axis xyz="0 -1 0"/>
+         <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+    -    <mimic joint="left_joint" multiplier="-1"/>
+    +    <mimic joint="left_joint"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -17,47 +17,26 @@ class MimicJointUndefined(RobotRule):
     Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.
 
     ## Example
-    ```xml
-    <robot name="hand">
-      <link name="palm"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_finger" type="prismatic">
-        <parent link="palm"/>
-        <child link="left"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.04" effort="10" velocity="0.1"/>
-      </joint>
-      <joint name="right_finger" type="prismatic">
-        <parent link="palm"/>
-        <child link="right"/>
-        <axis xyz="0 -1 0"/>
-        <limit lower="0" upper="0.04" effort="10" velocity="0.1"/>
-        <mimic joint="leftfinger"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="hand">
-      <link name="palm"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_finger" type="prismatic">
-        <parent link="palm"/>
-        <child link="left"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.04" effort="10" velocity="0.1"/>
-      </joint>
-      <joint name="right_finger" type="prismatic">
-        <parent link="palm"/>
-        <child link="right"/>
-        <axis xyz="0 -1 0"/>
-        <limit lower="0" upper="0.04" effort="10" velocity="0.1"/>
-        <mimic joint="left_finger"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="hand">
+       <link name="palm"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_finger" type="prismatic">
+         <parent link="palm"/>
+         <child link="left"/>
+         <axis xyz="0 1 0"/>
+         <limit lower="0" upper="0.04" effort="10" velocity="0.1"/>
+       </joint>
+       <joint name="right_finger" type="prismatic">
+         <parent link="palm"/>
+         <child link="right"/>
+         <axis xyz="0 -1 0"/>
+         <limit lower="0" upper="0.04" effort="10" velocity="0.1"/>
+    -    <mimic joint="leftfinger"/>
+    +    <mimic joint="left_finger"/>
+       </joint>
+     </robot>
     ```
 
     ## Fix safety

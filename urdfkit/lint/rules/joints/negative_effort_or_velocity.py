@@ -25,31 +25,18 @@ class NegativeEffortOrVelocity(RobotRule):
     These limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="-1" velocity="2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm"/>
-      <joint name="elbow" type="revolute">
-        <parent link="base"/>
-        <child link="arm"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="10" velocity="2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="arm"/>
+       <joint name="elbow" type="revolute">
+         <parent link="base"/>
+         <child link="arm"/>
+         <axis xyz="0 1 0"/>
+    -    <limit lower="-1" upper="1" effort="-1" velocity="2"/>
+    +    <limit lower="-1" upper="1" effort="10" velocity="2"/>
+       </joint>
+     </robot>
     ```
     """
 

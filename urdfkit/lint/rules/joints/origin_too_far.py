@@ -61,37 +61,21 @@ class OriginTooFar(RobotRule):
     copied from a CAD program.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
-      </link>
-      <link name="arm">
-        <visual><geometry><box size="0.05 0.05 0.3"/></geometry></visual>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="arm"/>
-        <origin xyz="0 0 200"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base">
-        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
-      </link>
-      <link name="arm">
-        <visual><geometry><box size="0.05 0.05 0.3"/></geometry></visual>
-      </link>
-      <joint name="mount" type="fixed">
-        <parent link="base"/>
-        <child link="arm"/>
-        <origin xyz="0 0 0.2"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base">
+         <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
+       </link>
+       <link name="arm">
+         <visual><geometry><box size="0.05 0.05 0.3"/></geometry></visual>
+       </link>
+       <joint name="mount" type="fixed">
+         <parent link="base"/>
+         <child link="arm"/>
+    -    <origin xyz="0 0 200"/>
+    +    <origin xyz="0 0 0.2"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -32,41 +32,23 @@ class SlideOffItsParent(RobotRule):
     limits are twice as large, because the stroke was written for each direction.
 
     ## Example
-    ```xml
-    <robot name="gantry">
-      <link name="world"/>
-      <joint name="mount" type="fixed"><parent link="world"/><child link="rail"/></joint>
-      <link name="rail"><visual><geometry><box size="2 0.1 0.1"/></geometry></visual></link>
-      <link name="carriage">
-        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
-        <inertial><mass value="6"/><inertia ixx="0.025" ixy="0" ixz="0" iyy="0.025" iyz="0" izz="0.04"/></inertial>
-      </link>
-      <joint name="rail_joint" type="prismatic">
-        <parent link="rail"/><child link="carriage"/>
-        <origin xyz="0 0 0.1"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="-0.8" upper="0.8" effort="100" velocity="1"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="gantry">
-      <link name="world"/>
-      <joint name="mount" type="fixed"><parent link="world"/><child link="rail"/></joint>
-      <link name="rail"><visual><geometry><box size="2 0.1 0.1"/></geometry></visual></link>
-      <link name="carriage">
-        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
-        <inertial><mass value="6"/><inertia ixx="0.025" ixy="0" ixz="0" iyy="0.025" iyz="0" izz="0.04"/></inertial>
-      </link>
-      <joint name="rail_joint" type="prismatic">
-        <parent link="rail"/><child link="carriage"/>
-        <origin xyz="0 0 0.1"/>
-        <axis xyz="1 0 0"/>
-        <limit lower="-0.8" upper="0.8" effort="100" velocity="1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="gantry">
+       <link name="world"/>
+       <joint name="mount" type="fixed"><parent link="world"/><child link="rail"/></joint>
+       <link name="rail"><visual><geometry><box size="2 0.1 0.1"/></geometry></visual></link>
+       <link name="carriage">
+         <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
+         <inertial><mass value="6"/><inertia ixx="0.025" ixy="0" ixz="0" iyy="0.025" iyz="0" izz="0.04"/></inertial>
+       </link>
+       <joint name="rail_joint" type="prismatic">
+         <parent link="rail"/><child link="carriage"/>
+         <origin xyz="0 0 0.1"/>
+    -    <axis xyz="0 1 0"/>
+    +    <axis xyz="1 0 0"/>
+         <limit lower="-0.8" upper="0.8" effort="100" velocity="1"/>
+       </joint>
+     </robot>
     ```
     """
 

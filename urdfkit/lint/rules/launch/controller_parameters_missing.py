@@ -24,18 +24,11 @@ class ControllerParametersMissing(RobotRule):
     The spawner fails, since the controller has no type, and the robot does not move.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="spawner" pkg="controller_manager" type="spawner" args="wheel_controller"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
-      <node name="spawner" pkg="controller_manager" type="spawner" args="wheel_controller"/>
-    </launch>
+    ```diff
+     <launch>
+    +  <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
+       <node name="spawner" pkg="controller_manager" type="spawner" args="wheel_controller"/>
+     </launch>
     ```
 
     ## References

@@ -30,17 +30,11 @@ class ExecutableUnknown(RobotRule):
     The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".
 
     ## Example
-    ```xml
-    <launch>
-      <node name="state" pkg="robot_state_publisher" type="robot_state_publish"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="state" pkg="robot_state_publisher" type="robot_state_publisher"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <node name="state" pkg="robot_state_publisher" type="robot_state_publish"/>
+    +  <node name="state" pkg="robot_state_publisher" type="robot_state_publisher"/>
+     </launch>
     ```
 
     ## Fix safety

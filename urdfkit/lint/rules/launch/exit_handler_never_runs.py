@@ -16,33 +16,20 @@ class ExitHandlerNeverRuns(RobotRule):
     The nodes of the handler never start, and no error is reported. For example, no controllers are loaded.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch.actions import RegisterEventHandler
-    from launch.event_handlers import OnProcessExit
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch.actions import RegisterEventHandler
+    -from launch.event_handlers import OnProcessExit
+    +from launch.event_handlers import OnProcessStart
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        manager = Node(package="controller_manager", executable="ros2_control_node", parameters=["controllers.yaml"])
-        arm = Node(package="controller_manager", executable="spawner", arguments=["arm_controller"])
-        handler = RegisterEventHandler(OnProcessExit(target_action=manager, on_exit=[arm]))
-        return LaunchDescription([manager, handler])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch.actions import RegisterEventHandler
-    from launch.event_handlers import OnProcessStart
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        manager = Node(package="controller_manager", executable="ros2_control_node", parameters=["controllers.yaml"])
-        arm = Node(package="controller_manager", executable="spawner", arguments=["arm_controller"])
-        handler = RegisterEventHandler(OnProcessStart(target_action=manager, on_start=[arm]))
-        return LaunchDescription([manager, handler])
+     def generate_launch_description():
+         manager = Node(package="controller_manager", executable="ros2_control_node", parameters=["controllers.yaml"])
+         arm = Node(package="controller_manager", executable="spawner", arguments=["arm_controller"])
+    -    handler = RegisterEventHandler(OnProcessExit(target_action=manager, on_exit=[arm]))
+    +    handler = RegisterEventHandler(OnProcessStart(target_action=manager, on_start=[arm]))
+         return LaunchDescription([manager, handler])
     ```
     """
 

@@ -15,33 +15,20 @@ class HardwareInSimulation(RobotRule):
     The condition is inverted: drivers start without their devices, and the robot starts without its drivers.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch.actions import DeclareLaunchArgument
-    from launch.conditions import IfCondition
-    from launch.substitutions import LaunchConfiguration
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch.actions import DeclareLaunchArgument
+    -from launch.conditions import IfCondition
+    +from launch.conditions import UnlessCondition
+     from launch.substitutions import LaunchConfiguration
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        condition = IfCondition(LaunchConfiguration("use_sim"))
-        lidar = Node(package="rplidar_ros", executable="rplidar_node", condition=condition)
-        return LaunchDescription([DeclareLaunchArgument("use_sim", default_value="false"), lidar])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch.actions import DeclareLaunchArgument
-    from launch.conditions import UnlessCondition
-    from launch.substitutions import LaunchConfiguration
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        condition = UnlessCondition(LaunchConfiguration("use_sim"))
-        lidar = Node(package="rplidar_ros", executable="rplidar_node", condition=condition)
-        return LaunchDescription([DeclareLaunchArgument("use_sim", default_value="false"), lidar])
+     def generate_launch_description():
+    -    condition = IfCondition(LaunchConfiguration("use_sim"))
+    +    condition = UnlessCondition(LaunchConfiguration("use_sim"))
+         lidar = Node(package="rplidar_ros", executable="rplidar_node", condition=condition)
+         return LaunchDescription([DeclareLaunchArgument("use_sim", default_value="false"), lidar])
     ```
     """
 

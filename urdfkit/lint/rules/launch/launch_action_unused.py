@@ -30,25 +30,15 @@ class LaunchActionUnused(RobotRule):
     The node is not started, or the argument is not declared. There is no error message.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        rviz = Node(package="rviz2", executable="rviz2")
-        return LaunchDescription([])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        rviz = Node(package="rviz2", executable="rviz2")
-        return LaunchDescription([rviz])
+     def generate_launch_description():
+         rviz = Node(package="rviz2", executable="rviz2")
+    -    return LaunchDescription([])
+    +    return LaunchDescription([rviz])
     ```
     """
 

@@ -15,18 +15,11 @@ class LaunchArgumentDuplicate(RobotRule):
     has no effect.
 
     ## Example
-    ```xml
-    <launch>
-      <arg name="model" default="cart"/>
-      <arg name="model" default="rover"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <arg name="model" default="cart"/>
-    </launch>
+    ```diff
+     <launch>
+       <arg name="model" default="cart"/>
+    -  <arg name="model" default="rover"/>
+     </launch>
     ```
     """
 

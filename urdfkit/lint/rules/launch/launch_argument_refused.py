@@ -16,23 +16,14 @@ class LaunchArgumentRefused(RobotRule):
     The launch stops: "provided value is not valid". A comparison with another value is never true.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch.actions import DeclareLaunchArgument
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch.actions import DeclareLaunchArgument
 
 
-    def generate_launch_description():
-        return LaunchDescription([DeclareLaunchArgument("mode", default_value="map", choices=["slam", "amcl"])])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch.actions import DeclareLaunchArgument
-
-
-    def generate_launch_description():
-        return LaunchDescription([DeclareLaunchArgument("mode", default_value="slam", choices=["slam", "amcl"])])
+     def generate_launch_description():
+    -    return LaunchDescription([DeclareLaunchArgument("mode", default_value="map", choices=["slam", "amcl"])])
+    +    return LaunchDescription([DeclareLaunchArgument("mode", default_value="slam", choices=["slam", "amcl"])])
     ```
     """
 

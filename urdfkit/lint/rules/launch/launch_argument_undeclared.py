@@ -25,19 +25,12 @@ class LaunchArgumentUndeclared(RobotRule):
     default in ``LaunchConfiguration``, the argument has no effect.
 
     ## Example
-    ```xml
-    <launch>
-      <arg name="model" default="cart"/>
-      <param name="robot_name" value="$(arg modle)"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <arg name="model" default="cart"/>
-      <param name="robot_name" value="$(arg model)"/>
-    </launch>
+    ```diff
+     <launch>
+       <arg name="model" default="cart"/>
+    -  <param name="robot_name" value="$(arg modle)"/>
+    +  <param name="robot_name" value="$(arg model)"/>
+     </launch>
     ```
 
     ## Fix safety

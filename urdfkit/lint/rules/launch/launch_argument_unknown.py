@@ -25,17 +25,11 @@ class LaunchArgumentUnknown(RobotRule):
     roslaunch fails with "unused args". ROS 2 and xacro ignore the argument, and the default applies.
 
     ## Example
-    ```xml
-    <launch>
-      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro lenght:=2"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length:=2"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro lenght:=2"/>
+    +  <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length:=2"/>
+     </launch>
     ```
 
     ## Fix safety

@@ -23,17 +23,11 @@ class LaunchElementInvalid(RobotRule):
     with a warning, so the node or the parameter is missing.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="rviz" pkg="rviz" typ="rviz"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="rviz" pkg="rviz" type="rviz"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <node name="rviz" pkg="rviz" typ="rviz"/>
+    +  <node name="rviz" pkg="rviz" type="rviz"/>
+     </launch>
     ```
 
     ## Fix safety

@@ -19,17 +19,11 @@ class LaunchIncludeCycle(RobotRule):
     The launch includes the file again and again until it stops with an error.
 
     ## Example
-    ```xml
-    <launch>
-      <include file="$(find cart_description)/example.launch"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <include file="$(find cart_description)/launch/state.launch"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <include file="$(find cart_description)/example.launch"/>
+    +  <include file="$(find cart_description)/launch/state.launch"/>
+     </launch>
     ```
 
     ## References

@@ -51,17 +51,11 @@ class LaunchNameMisspelt(RobotRule):
     The node does not use the simulated time, or waits for a description that is never published.
 
     ## Example
-    ```xml
-    <launch>
-      <param name="use_sim_tme" value="true"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <param name="use_sim_time" value="true"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <param name="use_sim_tme" value="true"/>
+    +  <param name="use_sim_time" value="true"/>
+     </launch>
     ```
 
     ## Fix safety

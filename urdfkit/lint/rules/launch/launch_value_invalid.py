@@ -46,17 +46,11 @@ class LaunchValueInvalid(RobotRule):
     ``<rosparam>`` dump overwrites the file that the package should load.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="rviz" pkg="rviz" type="rviz" if="yes"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="rviz" pkg="rviz" type="rviz" if="true"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <node name="rviz" pkg="rviz" type="rviz" if="yes"/>
+    +  <node name="rviz" pkg="rviz" type="rviz" if="true"/>
+     </launch>
     ```
 
     ## Fix safety

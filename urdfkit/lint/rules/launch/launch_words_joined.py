@@ -14,21 +14,13 @@ class LaunchWordsJoined(RobotRule):
     The command is not found, or the program reads an option with the wrong name or value.
 
     ## Example
-    ```python
-    from launch.substitutions import Command, PathJoinSubstitution
-    from launch_ros.substitutions import FindPackageShare
+    ```diff title="robot.launch.py"
+     from launch.substitutions import Command, PathJoinSubstitution
+     from launch_ros.substitutions import FindPackageShare
 
-    path = PathJoinSubstitution([FindPackageShare("cart_description"), "cart.urdf"])
-    description = Command(["xacro", path])
-    ```
-
-    ## Use instead
-    ```python
-    from launch.substitutions import Command, PathJoinSubstitution
-    from launch_ros.substitutions import FindPackageShare
-
-    path = PathJoinSubstitution([FindPackageShare("cart_description"), "cart.urdf"])
-    description = Command(["xacro ", path])
+     path = PathJoinSubstitution([FindPackageShare("cart_description"), "cart.urdf"])
+    -description = Command(["xacro", path])
+    +description = Command(["xacro ", path])
     ```
     """
 

@@ -18,21 +18,13 @@ class MapTransformPublishedTwice(RobotRule):
     both nodes, and the other value starts none.
 
     ## Example
-    ```xml
-    <launch>
-      <arg name="mapping" default="false"/>
-      <node if="$(var mapping)" pkg="slam_toolbox" exec="sync_slam_toolbox_node" name="slam"/>
-      <node if="$(var mapping)" pkg="nav2_amcl" exec="amcl" name="amcl"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <arg name="mapping" default="false"/>
-      <node if="$(var mapping)" pkg="slam_toolbox" exec="sync_slam_toolbox_node" name="slam"/>
-      <node unless="$(var mapping)" pkg="nav2_amcl" exec="amcl" name="amcl"/>
-    </launch>
+    ```diff
+     <launch>
+       <arg name="mapping" default="false"/>
+       <node if="$(var mapping)" pkg="slam_toolbox" exec="sync_slam_toolbox_node" name="slam"/>
+    -  <node if="$(var mapping)" pkg="nav2_amcl" exec="amcl" name="amcl"/>
+    +  <node unless="$(var mapping)" pkg="nav2_amcl" exec="amcl" name="amcl"/>
+     </launch>
     ```
     """
 

@@ -16,23 +16,14 @@ class NodeArgumentsMissing(RobotRule):
     The node prints how it is used and exits, or waits without effect.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        return LaunchDescription([Node(package="controller_manager", executable="spawner")])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        return LaunchDescription([Node(package="controller_manager", executable="spawner", arguments=["drive"])])
+     def generate_launch_description():
+    -    return LaunchDescription([Node(package="controller_manager", executable="spawner")])
+    +    return LaunchDescription([Node(package="controller_manager", executable="spawner", arguments=["drive"])])
     ```
     """
 

@@ -20,19 +20,12 @@ class NodeNameDuplicate(RobotRule):
     reach either one.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="view" pkg="rviz" type="rviz"/>
-      <node name="view" pkg="rviz" type="rviz"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="view" pkg="rviz" type="rviz"/>
-      <node name="rear_view" pkg="rviz" type="rviz"/>
-    </launch>
+    ```diff
+     <launch>
+       <node name="view" pkg="rviz" type="rviz"/>
+    -  <node name="view" pkg="rviz" type="rviz"/>
+    +  <node name="rear_view" pkg="rviz" type="rviz"/>
+     </launch>
     ```
     """
 

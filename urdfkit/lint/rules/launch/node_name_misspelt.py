@@ -17,33 +17,19 @@ class NodeNameMisspelt(RobotRule):
     starts.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch_ros.actions import Node
 
-    SERVERS = ["planer_server"]
-
-
-    def generate_launch_description():
-        planner = Node(package="nav2_planner", executable="planner_server", name="planner_server")
-        parameters = [{"node_names": SERVERS}]
-        manager = Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", parameters=parameters)
-        return LaunchDescription([planner, manager])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
-
-    SERVERS = ["planner_server"]
+    -SERVERS = ["planer_server"]
+    +SERVERS = ["planner_server"]
 
 
-    def generate_launch_description():
-        planner = Node(package="nav2_planner", executable="planner_server", name="planner_server")
-        parameters = [{"node_names": SERVERS}]
-        manager = Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", parameters=parameters)
-        return LaunchDescription([planner, manager])
+     def generate_launch_description():
+         planner = Node(package="nav2_planner", executable="planner_server", name="planner_server")
+         parameters = [{"node_names": SERVERS}]
+         manager = Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", parameters=parameters)
+         return LaunchDescription([planner, manager])
     ```
 
     ## Fix safety

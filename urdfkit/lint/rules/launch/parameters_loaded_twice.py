@@ -19,23 +19,14 @@ class ParametersLoadedTwice(RobotRule):
     then lacks its parameters.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="move_base" pkg="move_base" type="move_base">
-        <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="global_costmap"/>
-        <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="global_costmap"/>
-      </node>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="move_base" pkg="move_base" type="move_base">
-        <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="global_costmap"/>
-        <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="local_costmap"/>
-      </node>
-    </launch>
+    ```diff
+     <launch>
+       <node name="move_base" pkg="move_base" type="move_base">
+         <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="global_costmap"/>
+    -    <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="global_costmap"/>
+    +    <rosparam command="load" file="$(find cart_description)/config/costmap.yaml" ns="local_costmap"/>
+       </node>
+     </launch>
     ```
     """
 

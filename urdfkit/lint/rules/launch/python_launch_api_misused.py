@@ -30,23 +30,14 @@ class PythonLaunchApiMisused(RobotRule):
     The launch file stops with an ImportError or a TypeError before it starts a node.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        return LaunchDescription([Node(pkg="rviz2", executable="rviz2")])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        return LaunchDescription([Node(package="rviz2", executable="rviz2")])
+     def generate_launch_description():
+    -    return LaunchDescription([Node(pkg="rviz2", executable="rviz2")])
+    +    return LaunchDescription([Node(package="rviz2", executable="rviz2")])
     ```
 
     ## Fix safety

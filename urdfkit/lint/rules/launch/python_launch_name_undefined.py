@@ -23,18 +23,12 @@ class PythonLaunchNameUndefined(RobotRule):
     The launch file stops with an error before it starts a node.
 
     ## Example
-    ```python
-    def generate_launch_description():
-        return LaunchDescription([])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-
-
-    def generate_launch_description():
-        return LaunchDescription([])
+    ```diff title="robot.launch.py"
+    +from launch import LaunchDescription
+    +
+    +
+     def generate_launch_description():
+         return LaunchDescription([])
     ```
 
     ## Fix safety

@@ -23,26 +23,17 @@ class RobotDescriptionMissing(RobotRule):
     The node stops, or the robot does not appear.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        return LaunchDescription([Node(package="robot_state_publisher", executable="robot_state_publisher")])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        description = {"robot_description": "<robot name='cart'><link name='base'/></robot>"}
-        return LaunchDescription([
-            Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[description])
-        ])
+     def generate_launch_description():
+    -    return LaunchDescription([Node(package="robot_state_publisher", executable="robot_state_publisher")])
+    +    description = {"robot_description": "<robot name='cart'><link name='base'/></robot>"}
+    +    return LaunchDescription([
+    +        Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[description])
+    +    ])
     ```
     """
 

@@ -18,29 +18,17 @@ class SimulationTimeInconsistent(RobotRule):
     The node compares simulation time with system time. It waits for transforms, or drops every message as too old.
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from launch_ros.actions import Node
 
 
-    def generate_launch_description():
-        clock = {"use_sim_time": True}
-        odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
-        map = Node(package="robot_localization", executable="ukf_node", name="ukf_map")
-        return LaunchDescription([odom, map])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from launch_ros.actions import Node
-
-
-    def generate_launch_description():
-        clock = {"use_sim_time": True}
-        odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
-        map = Node(package="robot_localization", executable="ukf_node", name="ukf_map", parameters=[clock])
-        return LaunchDescription([odom, map])
+     def generate_launch_description():
+         clock = {"use_sim_time": True}
+         odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
+    -    map = Node(package="robot_localization", executable="ukf_node", name="ukf_map")
+    +    map = Node(package="robot_localization", executable="ukf_node", name="ukf_map", parameters=[clock])
+         return LaunchDescription([odom, map])
     ```
     """
 

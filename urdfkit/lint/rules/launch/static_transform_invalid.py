@@ -18,17 +18,11 @@ class StaticTransformInvalid(RobotRule):
     The node exits, or the transform is missing or wrong. With two parents, a frame jumps between two places.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="map_to_odom" pkg="tf2_ros" type="static_transform_publisher" args="0 0 0 0 0 0 map odom 100"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="map_to_odom" pkg="tf2_ros" type="static_transform_publisher" args="0 0 0 0 0 0 map odom"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <node name="map_to_odom" pkg="tf2_ros" type="static_transform_publisher" args="0 0 0 0 0 0 map odom 100"/>
+    +  <node name="map_to_odom" pkg="tf2_ros" type="static_transform_publisher" args="0 0 0 0 0 0 map odom"/>
+     </launch>
     ```
 
     ## Fix safety

@@ -13,17 +13,11 @@ class XacroArgumentMalformed(RobotRule):
     xacro takes the word for a second input file and stops: "expected exactly one input file as argument".
 
     ## Example
-    ```xml
-    <launch>
-      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length=2"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length:=2"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length=2"/>
+    +  <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length:=2"/>
+     </launch>
     ```
     """
 

@@ -16,21 +16,13 @@ class XacroNotExpanded(RobotRule):
     ``robot_description`` contains macros and expressions instead of links, and every program that reads it fails.
 
     ## Example
-    ```python
-    from launch.substitutions import Command, PathJoinSubstitution
-    from launch_ros.substitutions import FindPackageShare
+    ```diff title="robot.launch.py"
+     from launch.substitutions import Command, PathJoinSubstitution
+     from launch_ros.substitutions import FindPackageShare
 
-    path = PathJoinSubstitution([FindPackageShare("cart_description"), "urdf", "cart.urdf.xacro"])
-    description = Command(["cat ", path])
-    ```
-
-    ## Use instead
-    ```python
-    from launch.substitutions import Command, PathJoinSubstitution
-    from launch_ros.substitutions import FindPackageShare
-
-    path = PathJoinSubstitution([FindPackageShare("cart_description"), "urdf", "cart.urdf.xacro"])
-    description = Command(["xacro ", path])
+     path = PathJoinSubstitution([FindPackageShare("cart_description"), "urdf", "cart.urdf.xacro"])
+    -description = Command(["cat ", path])
+    +description = Command(["xacro ", path])
     ```
     """
 

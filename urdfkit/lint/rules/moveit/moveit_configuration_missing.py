@@ -27,25 +27,15 @@ class MoveitConfigurationMissing(RobotRule):
     The launch stops: "package not found" or "No such file or directory".
 
     ## Example
-    ```python
-    from launch import LaunchDescription
-    from moveit_configs_utils import MoveItConfigsBuilder
+    ```diff title="robot.launch.py"
+     from launch import LaunchDescription
+     from moveit_configs_utils import MoveItConfigsBuilder
 
 
-    def generate_launch_description():
-        config = MoveItConfigsBuilder("cart", package_name="cart_descripton").to_moveit_configs()
-        return LaunchDescription([config])
-    ```
-
-    ## Use instead
-    ```python
-    from launch import LaunchDescription
-    from moveit_configs_utils import MoveItConfigsBuilder
-
-
-    def generate_launch_description():
-        config = MoveItConfigsBuilder("cart", package_name="cart_description").to_moveit_configs()
-        return LaunchDescription([config])
+     def generate_launch_description():
+    -    config = MoveItConfigsBuilder("cart", package_name="cart_descripton").to_moveit_configs()
+    +    config = MoveItConfigsBuilder("cart", package_name="cart_description").to_moveit_configs()
+         return LaunchDescription([config])
     ```
 
     ## Fix safety

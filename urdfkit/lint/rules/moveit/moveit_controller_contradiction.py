@@ -17,25 +17,16 @@ class MoveitControllerContradiction(RobotRule):
     incoming trajectory don't match the controller joints".
 
     ## Example
-    ```yaml
-    moveit_controller_manager: moveit_simple_controller_manager/MoveItSimpleControllerManager
-    moveit_simple_controller_manager:
-      controller_names: [arm_controller]
-      arm_controller:
-        type: GripperCommand
-        action_ns: gripper_cmd
-        joints: [elbow]
-    ```
-
-    ## Use instead
-    ```yaml
-    moveit_controller_manager: moveit_simple_controller_manager/MoveItSimpleControllerManager
-    moveit_simple_controller_manager:
-      controller_names: [arm_controller]
-      arm_controller:
-        type: FollowJointTrajectory
-        action_ns: follow_joint_trajectory
-        joints: [elbow]
+    ```diff
+     moveit_controller_manager: moveit_simple_controller_manager/MoveItSimpleControllerManager
+     moveit_simple_controller_manager:
+       controller_names: [arm_controller]
+       arm_controller:
+    -    type: GripperCommand
+    -    action_ns: gripper_cmd
+    +    type: FollowJointTrajectory
+    +    action_ns: follow_joint_trajectory
+         joints: [elbow]
     ```
 
     ## References

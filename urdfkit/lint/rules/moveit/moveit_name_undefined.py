@@ -29,15 +29,10 @@ class MoveitNameUndefined(RobotRule):
     trajectory for joints without a controller.
 
     ## Example
-    ```yaml
-    amr:
-      kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
-    ```
-
-    ## Use instead
-    ```yaml
-    arm:
-      kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
+    ```diff
+    -amr:
+    +arm:
+       kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
     ```
 
     ## Fix safety

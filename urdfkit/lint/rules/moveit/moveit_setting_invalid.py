@@ -33,19 +33,12 @@ class MoveitSettingInvalid(RobotRule):
     ``has_acceleration_limits`` or ``has_jerk_limits`` is not a boolean; in ROS 1, it ignores the value.
 
     ## Example
-    ```yaml
-    joint_limits:
-      elbow:
-        has_velocity_limits: true
-        max_velocity: -1.5
-    ```
-
-    ## Use instead
-    ```yaml
-    joint_limits:
-      elbow:
-        has_velocity_limits: true
-        max_velocity: 1.5
+    ```diff
+     joint_limits:
+       elbow:
+         has_velocity_limits: true
+    -    max_velocity: -1.5
+    +    max_velocity: 1.5
     ```
 
     ## Fix safety

@@ -31,28 +31,16 @@ class SrdfAdjacentPairMissing(RobotRule):
     plan.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip_link="hand"/>
-      </group>
-      <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
-      <disable_collisions link1="base" link2="lower" reason="Never"/>
-      <disable_collisions link1="lower" link2="hand" reason="Adjacent"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip_link="hand"/>
-      </group>
-      <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
-      <disable_collisions link1="base" link2="lower" reason="Never"/>
-      <disable_collisions link1="upper" link2="lower" reason="Adjacent"/>
-      <disable_collisions link1="lower" link2="hand" reason="Adjacent"/>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+         <chain base_link="base" tip_link="hand"/>
+       </group>
+       <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
+       <disable_collisions link1="base" link2="lower" reason="Never"/>
+    +  <disable_collisions link1="upper" link2="lower" reason="Adjacent"/>
+       <disable_collisions link1="lower" link2="hand" reason="Adjacent"/>
+     </robot>
     ```
     """
 

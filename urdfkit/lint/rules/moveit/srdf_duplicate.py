@@ -24,25 +24,15 @@ class SrdfDuplicate(RobotRule):
     MoveIt uses one of the definitions: "A group named 'arm' already exists. Not adding."
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="shoulder"/>
-      </group>
-      <group name="arm">
-        <joint name="elbow"/>
-      </group>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="shoulder"/>
-        <joint name="elbow"/>
-      </group>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+         <joint name="shoulder"/>
+    -  </group>
+    -  <group name="arm">
+         <joint name="elbow"/>
+       </group>
+     </robot>
     ```
     """
 

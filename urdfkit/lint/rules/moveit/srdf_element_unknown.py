@@ -23,21 +23,13 @@ class SrdfElementUnknown(RobotRule):
     srdfdom ignores the element: the group does not exist, or the links collide.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip="hand"/>
-      </group>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip_link="hand"/>
-      </group>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+    -    <chain base_link="base" tip="hand"/>
+    +    <chain base_link="base" tip_link="hand"/>
+       </group>
+     </robot>
     ```
 
     ## Fix safety

@@ -25,21 +25,13 @@ class SrdfGroupInconsistent(RobotRule):
     The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="hand" tip_link="base"/>
-      </group>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip_link="hand"/>
-      </group>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+    -    <chain base_link="hand" tip_link="base"/>
+    +    <chain base_link="base" tip_link="hand"/>
+       </group>
+     </robot>
     ```
     """
 

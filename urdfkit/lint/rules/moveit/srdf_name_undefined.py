@@ -26,21 +26,13 @@ class SrdfNameUndefined(RobotRule):
     ``<disable_collisions>`` leave the collision check on: the robot collides with itself in every state.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip_link="hnad"/>
-      </group>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <chain base_link="base" tip_link="hand"/>
-      </group>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+    -    <chain base_link="base" tip_link="hnad"/>
+    +    <chain base_link="base" tip_link="hand"/>
+       </group>
+     </robot>
     ```
 
     ## Fix safety

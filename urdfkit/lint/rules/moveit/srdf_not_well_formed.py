@@ -19,21 +19,13 @@ class SrdfNotWellFormed(RobotRule):
     MoveIt does not start: "Could not parse the SRDF XML File".
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="elbow">
-      </group>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="elbow"/>
-      </group>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+    -    <joint name="elbow">
+    +    <joint name="elbow"/>
+       </group>
+     </robot>
     ```
     """
 

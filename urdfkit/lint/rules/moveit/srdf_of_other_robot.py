@@ -14,21 +14,13 @@ class SrdfOfOtherRobot(RobotRule):
     MoveIt logs "Semantic description is not specified for the same robot as the URDF".
 
     ## Example
-    ```xml
-    <robot name="amr">
-      <group name="arm">
-        <joint name="elbow"/>
-      </group>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="elbow"/>
-      </group>
-    </robot>
+    ```diff
+    -<robot name="amr">
+    +<robot name="arm">
+       <group name="arm">
+         <joint name="elbow"/>
+       </group>
+     </robot>
     ```
     """
 

@@ -30,27 +30,16 @@ class SrdfStateInvalid(RobotRule):
     MoveIt rejects a goal beyond the limits, and ignores values for joints of other groups.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="elbow"/>
-      </group>
-      <group_state name="folded" group="arm">
-        <joint name="elbow" value="90"/>
-      </group_state>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <group name="arm">
-        <joint name="elbow"/>
-      </group>
-      <group_state name="folded" group="arm">
-        <joint name="elbow" value="1.5708"/>
-      </group_state>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <group name="arm">
+         <joint name="elbow"/>
+       </group>
+       <group_state name="folded" group="arm">
+    -    <joint name="elbow" value="90"/>
+    +    <joint name="elbow" value="1.5708"/>
+       </group_state>
+     </robot>
     ```
     """
 

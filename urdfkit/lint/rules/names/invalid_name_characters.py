@@ -17,17 +17,11 @@ class InvalidNameCharacters(RobotRule):
     files generated from such names are invalid.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="left wheel"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="left_wheel"/>
-    </robot>
+    ```diff
+     <robot name="cart">
+    -  <link name="left wheel"/>
+    +  <link name="left_wheel"/>
+     </robot>
     ```
     """
 

@@ -16,27 +16,16 @@ class LinkJointSameName(RobotRule):
     renames the joint, and plugins that refer to the joint do not find it.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="wheel" type="fixed">
-        <parent link="base"/>
-        <child link="wheel"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="wheel"/>
-      <joint name="wheel_joint" type="fixed">
-        <parent link="base"/>
-        <child link="wheel"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="wheel"/>
+    -  <joint name="wheel" type="fixed">
+    +  <joint name="wheel_joint" type="fixed">
+         <parent link="base"/>
+         <child link="wheel"/>
+       </joint>
+     </robot>
     ```
     """
 

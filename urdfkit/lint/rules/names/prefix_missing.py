@@ -31,33 +31,19 @@ class PrefixMissing(SourceRule):
     The robot is correct as long as the prefix is empty. With a prefix, the name is undefined, or two robots share it.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="arm" params="prefix:=''">
-        <link name="${prefix}base"/>
-        <link name="${prefix}tool"/>
-        <joint name="${prefix}flange" type="fixed">
-          <parent link="base"/>
-          <child link="${prefix}tool"/>
-        </joint>
-      </xacro:macro>
-      <xacro:arm/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="arm" params="prefix:=''">
-        <link name="${prefix}base"/>
-        <link name="${prefix}tool"/>
-        <joint name="${prefix}flange" type="fixed">
-          <parent link="${prefix}base"/>
-          <child link="${prefix}tool"/>
-        </joint>
-      </xacro:macro>
-      <xacro:arm/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="arm" params="prefix:=''">
+         <link name="${prefix}base"/>
+         <link name="${prefix}tool"/>
+         <joint name="${prefix}flange" type="fixed">
+    -      <parent link="base"/>
+    +      <parent link="${prefix}base"/>
+           <child link="${prefix}tool"/>
+         </joint>
+       </xacro:macro>
+       <xacro:arm/>
+     </robot>
     ```
 
     ## Fix safety

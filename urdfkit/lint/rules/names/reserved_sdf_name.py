@@ -15,17 +15,11 @@ class ReservedSdfName(RobotRule):
     ``::`` separates the names of nested models.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="__base__"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="cart">
+    -  <link name="__base__"/>
+    +  <link name="base"/>
+     </robot>
     ```
     """
 

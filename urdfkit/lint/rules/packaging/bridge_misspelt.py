@@ -38,21 +38,13 @@ class BridgeMisspelt(RobotRule):
     The bridge logs "No template specialization for the pair", or waits silently for a topic that does not exist.
 
     ## Example
-    ```yaml
-    - ros_topic_name: cmd_vel
-      gz_topic_name: cmd_vel
-      ros_type_name: geometry_msgs/msg/Twist
-      gz_type_name: gz.msgs.Twits
-      direction: ROS_TO_GZ
-    ```
-
-    ## Use instead
-    ```yaml
-    - ros_topic_name: cmd_vel
-      gz_topic_name: cmd_vel
-      ros_type_name: geometry_msgs/msg/Twist
-      gz_type_name: gz.msgs.Twist
-      direction: ROS_TO_GZ
+    ```diff
+     - ros_topic_name: cmd_vel
+       gz_topic_name: cmd_vel
+       ros_type_name: geometry_msgs/msg/Twist
+    -  gz_type_name: gz.msgs.Twits
+    +  gz_type_name: gz.msgs.Twist
+       direction: ROS_TO_GZ
     ```
 
     ## Fix safety

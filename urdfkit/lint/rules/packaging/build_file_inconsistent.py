@@ -47,21 +47,13 @@ class BuildFileInconsistent(RobotRule):
     The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".
 
     ## Example
-    ```cmake
-    cmake_minimum_required(VERSION 3.8)
-    project(cart_description)
-    find_package(ament_cmake REQUIRED)
-    install(DIRECTORY lanch urdf DESTINATION share/${PROJECT_NAME})
-    ament_package()
-    ```
-
-    ## Use instead
-    ```cmake
-    cmake_minimum_required(VERSION 3.8)
-    project(cart_description)
-    find_package(ament_cmake REQUIRED)
-    install(DIRECTORY launch urdf DESTINATION share/${PROJECT_NAME})
-    ament_package()
+    ```diff title="CMakeLists.txt"
+     cmake_minimum_required(VERSION 3.8)
+     project(cart_description)
+     find_package(ament_cmake REQUIRED)
+    -install(DIRECTORY lanch urdf DESTINATION share/${PROJECT_NAME})
+    +install(DIRECTORY launch urdf DESTINATION share/${PROJECT_NAME})
+     ament_package()
     ```
 
     ## Fix safety

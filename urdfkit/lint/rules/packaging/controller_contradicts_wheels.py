@@ -31,31 +31,18 @@ class ControllerContradictsWheels(RobotRule):
     The robot turns in the wrong direction, or drives and turns more or less than commanded, and its odometry is wrong.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        drive:
-          type: diff_drive_controller/DiffDriveController
-    drive:
-      ros__parameters:
-        left_wheel_names: [left_wheel_joint]
-        right_wheel_names: [right_wheel_joint]
-        wheel_separation: 0.6
-        wheel_radius: 0.05
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        drive:
-          type: diff_drive_controller/DiffDriveController
-    drive:
-      ros__parameters:
-        left_wheel_names: [left_wheel_joint]
-        right_wheel_names: [right_wheel_joint]
-        wheel_separation: 0.3
-        wheel_radius: 0.05
+    ```diff
+     controller_manager:
+       ros__parameters:
+         drive:
+           type: diff_drive_controller/DiffDriveController
+     drive:
+       ros__parameters:
+         left_wheel_names: [left_wheel_joint]
+         right_wheel_names: [right_wheel_joint]
+    -    wheel_separation: 0.6
+    +    wheel_separation: 0.3
+         wheel_radius: 0.05
     ```
 
     ## References

@@ -26,17 +26,11 @@ class ControllerInterfaceMissing(RobotRule):
     The controller does not start: "Could not find resource 'elbow' in 'hardware_interface::EffortJointInterface'".
 
     ## Example
-    ```yaml
-    arm_controller:
-      type: position_controllers/JointPositionController
-      joint: elbow
-    ```
-
-    ## Use instead
-    ```yaml
-    arm_controller:
-      type: effort_controllers/JointPositionController
-      joint: elbow
+    ```diff
+     arm_controller:
+    -  type: position_controllers/JointPositionController
+    +  type: effort_controllers/JointPositionController
+       joint: elbow
     ```
 
     ## References

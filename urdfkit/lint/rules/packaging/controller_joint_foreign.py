@@ -14,33 +14,19 @@ class ControllerJointForeign(RobotRule):
     The values have no effect, and the intended joint has the default gains or tolerances.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-        command_interfaces: [position]
-        state_interfaces: [position]
-        constraints:
-          finger: {goal: 0.01}
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-        command_interfaces: [position]
-        state_interfaces: [position]
-        constraints:
-          elbow: {goal: 0.01}
+    ```diff
+     controller_manager:
+       ros__parameters:
+         arm_controller:
+           type: joint_trajectory_controller/JointTrajectoryController
+     arm_controller:
+       ros__parameters:
+         joints: [elbow]
+         command_interfaces: [position]
+         state_interfaces: [position]
+         constraints:
+    -      finger: {goal: 0.01}
+    +      elbow: {goal: 0.01}
     ```
     """
 

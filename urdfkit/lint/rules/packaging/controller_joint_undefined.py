@@ -19,25 +19,15 @@ class ControllerJointUndefined(RobotRule):
     The controller does not start, because it cannot claim the joint.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbo]
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
+    ```diff
+     controller_manager:
+       ros__parameters:
+         arm_controller:
+           type: joint_trajectory_controller/JointTrajectoryController
+     arm_controller:
+       ros__parameters:
+    -    joints: [elbo]
+    +    joints: [elbow]
     ```
 
     ## Fix safety

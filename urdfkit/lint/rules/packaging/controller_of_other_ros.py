@@ -58,19 +58,12 @@ class ControllerOfOtherRos(RobotRule):
     not found".
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        joint_states:
-          type: joint_state_controller/JointStateController
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        joint_states:
-          type: joint_state_broadcaster/JointStateBroadcaster
+    ```diff
+     controller_manager:
+       ros__parameters:
+         joint_states:
+    -      type: joint_state_controller/JointStateController
+    +      type: joint_state_broadcaster/JointStateBroadcaster
     ```
     """
 

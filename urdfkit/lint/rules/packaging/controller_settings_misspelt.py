@@ -34,25 +34,15 @@ class ControllerSettingsMisspelt(RobotRule):
     keys are silently ignored. YAML with tabs is rejected.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controllers/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
+    ```diff
+     controller_manager:
+       ros__parameters:
+         arm_controller:
+    -      type: joint_trajectory_controllers/JointTrajectoryController
+    +      type: joint_trajectory_controller/JointTrajectoryController
+     arm_controller:
+       ros__parameters:
+         joints: [elbow]
     ```
 
     ## Fix safety

@@ -15,39 +15,22 @@ class ControllersShareInterface(RobotRule):
     conflict for controller".
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: forward_command_controller/ForwardCommandController
-        hand_controller:
-          type: forward_command_controller/ForwardCommandController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-        interface_name: position
-    hand_controller:
-      ros__parameters:
-        joints: [elbow]
-        interface_name: position
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: forward_command_controller/ForwardCommandController
-        hand_controller:
-          type: forward_command_controller/ForwardCommandController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-        interface_name: position
-    hand_controller:
-      ros__parameters:
-        joints: [finger]
-        interface_name: position
+    ```diff
+     controller_manager:
+       ros__parameters:
+         arm_controller:
+           type: forward_command_controller/ForwardCommandController
+         hand_controller:
+           type: forward_command_controller/ForwardCommandController
+     arm_controller:
+       ros__parameters:
+         joints: [elbow]
+         interface_name: position
+     hand_controller:
+       ros__parameters:
+    -    joints: [elbow]
+    +    joints: [finger]
+         interface_name: position
     ```
 
     ## References

@@ -53,19 +53,12 @@ class CostmapContradictsRobot(RobotRule):
     Navigation plans paths that are too narrow for the robot, or finds none.
 
     ## Example
-    ```yaml
-    local_costmap:
-      local_costmap:
-        ros__parameters:
-          robot_radius: 2.2
-    ```
-
-    ## Use instead
-    ```yaml
-    local_costmap:
-      local_costmap:
-        ros__parameters:
-          robot_radius: 0.22
+    ```diff
+     local_costmap:
+       local_costmap:
+         ros__parameters:
+    -      robot_radius: 2.2
+    +      robot_radius: 0.22
     ```
     """
 

@@ -23,27 +23,16 @@ class FilterInconsistent(RobotRule):
     the tree is not connected.
 
     ## Example
-    ```yaml
-    ekf_filter_node:
-      ros__parameters:
-        odom_frame: odom
-        base_link_frame: base_footprint
-        world_frame: odom
-        imu0: imu/data
-        imu0_config: [true, true, false, false, false, true, false,
-            false, false, false, false, true, false, false, false]
-    ```
-
-    ## Use instead
-    ```yaml
-    ekf_filter_node:
-      ros__parameters:
-        odom_frame: odom
-        base_link_frame: base_footprint
-        world_frame: odom
-        imu0: imu/data
-        imu0_config: [false, false, false, false, false, true, false,
-            false, false, false, false, true, false, false, false]
+    ```diff
+     ekf_filter_node:
+       ros__parameters:
+         odom_frame: odom
+         base_link_frame: base_footprint
+         world_frame: odom
+         imu0: imu/data
+    -    imu0_config: [true, true, false, false, false, true, false,
+    +    imu0_config: [false, false, false, false, false, true, false,
+             false, false, false, false, true, false, false, false]
     ```
     """
 

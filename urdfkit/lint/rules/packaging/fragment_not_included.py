@@ -33,22 +33,13 @@ class FragmentNotIncluded(RobotRule):
     The robot lacks the links, sensors or plugins in the fragment. Often an ``<xacro:include>`` was removed.
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:include filename="parts/base.xacro"/>
-      <xacro:include filename="parts/wheel.xacro"/>
-      <xacro:cart_base/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:include filename="parts/base.xacro"/>
-      <xacro:include filename="parts/wheel.xacro"/>
-      <xacro:include filename="parts/gazebo.xacro"/>
-      <xacro:cart_base/>
-    </robot>
+    ```diff
+     <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:include filename="parts/base.xacro"/>
+       <xacro:include filename="parts/wheel.xacro"/>
+    +  <xacro:include filename="parts/gazebo.xacro"/>
+       <xacro:cart_base/>
+     </robot>
     ```
 
     ## References

@@ -16,25 +16,15 @@ class FrameInconsistent(RobotRule):
     The node waits for a transform that no node publishes, or publishes a transform that no other node uses.
 
     ## Example
-    ```yaml
-    slam_toolbox:
-      ros__parameters:
-        odom_frame: odom_combined
-    local_costmap:
-      local_costmap:
-        ros__parameters:
-          global_frame: odom
-    ```
-
-    ## Use instead
-    ```yaml
-    slam_toolbox:
-      ros__parameters:
-        odom_frame: odom
-    local_costmap:
-      local_costmap:
-        ros__parameters:
-          global_frame: odom
+    ```diff
+     slam_toolbox:
+       ros__parameters:
+    -    odom_frame: odom_combined
+    +    odom_frame: odom
+     local_costmap:
+       local_costmap:
+         ros__parameters:
+           global_frame: odom
     ```
     """
 

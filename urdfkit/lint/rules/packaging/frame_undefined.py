@@ -46,17 +46,11 @@ class FrameUndefined(RobotRule):
     appears.
 
     ## Example
-    ```yaml
-    drive:
-      ros__parameters:
-        base_frame_id: base_linc
-    ```
-
-    ## Use instead
-    ```yaml
-    drive:
-      ros__parameters:
-        base_frame_id: base_link
+    ```diff
+     drive:
+       ros__parameters:
+    -    base_frame_id: base_linc
+    +    base_frame_id: base_link
     ```
 
     ## Fix safety

@@ -32,29 +32,17 @@ class HardwareInterfaceLacking(RobotRule):
     The controller manager refuses to start the controller: "Not acceptable command interfaces".
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-        command_interfaces: [velocity]
-        state_interfaces: [position]
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    arm_controller:
-      ros__parameters:
-        joints: [elbow]
-        command_interfaces: [position]
-        state_interfaces: [position]
+    ```diff
+     controller_manager:
+       ros__parameters:
+         arm_controller:
+           type: joint_trajectory_controller/JointTrajectoryController
+     arm_controller:
+       ros__parameters:
+         joints: [elbow]
+    -    command_interfaces: [velocity]
+    +    command_interfaces: [position]
+         state_interfaces: [position]
     ```
 
     ## Fix safety

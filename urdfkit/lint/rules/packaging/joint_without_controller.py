@@ -21,33 +21,19 @@ class JointWithoutController(RobotRule):
     The joint keeps its position, and plans of MoveIt that move it fail.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        update_rate: 100
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
+    ```diff
+     controller_manager:
+       ros__parameters:
+         update_rate: 100
+         arm_controller:
+           type: joint_trajectory_controller/JointTrajectoryController
 
-    arm_controller:
-      ros__parameters:
-        joints: [shoulder, wrist]
-        command_interfaces: [position]
-        state_interfaces: [position]
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        update_rate: 100
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-
-    arm_controller:
-      ros__parameters:
-        joints: [shoulder, elbow, wrist]
-        command_interfaces: [position]
-        state_interfaces: [position]
+     arm_controller:
+       ros__parameters:
+    -    joints: [shoulder, wrist]
+    +    joints: [shoulder, elbow, wrist]
+         command_interfaces: [position]
+         state_interfaces: [position]
     ```
     """
 

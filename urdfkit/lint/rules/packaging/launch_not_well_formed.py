@@ -16,17 +16,11 @@ class LaunchNotWellFormed(RobotRule):
     be built.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="rviz" pkg="rviz" type="rviz">
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="rviz" pkg="rviz" type="rviz"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <node name="rviz" pkg="rviz" type="rviz">
+    +  <node name="rviz" pkg="rviz" type="rviz"/>
+     </launch>
     ```
     """
 

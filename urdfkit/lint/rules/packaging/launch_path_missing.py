@@ -28,17 +28,11 @@ class LaunchPathMissing(RobotRule):
     The launch fails, or starts without the robot, the world or the parameters.
 
     ## Example
-    ```xml
-    <launch>
-      <param name="robot_description" command="xacro $(find cart_description)/urdf/carts.urdf"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <param name="robot_description" command="xacro $(find cart_description)/urdf/carts.urdf"/>
+    +  <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf"/>
+     </launch>
     ```
 
     ## Fix safety

@@ -31,35 +31,20 @@ class ManifestInvalid(RobotRule):
     package as a catkin package.
 
     ## Example
-    ```xml
-    <package format="3">
-      <name>cart_description</name>
-      <version>1.0.0</version>
-      <description>A robot for tests.</description>
-      <maintainer email="maintainer@example.com">The maintainers</maintainer>
-      <license>MIT</license>
-      <buildtool_depend>ament_cmake</buildtool_depend>
-      <exec_depend>robot_state_publishr</exec_depend>
-      <export>
-        <build_type>ament_cmake</build_type>
-      </export>
-    </package>
-    ```
-
-    ## Use instead
-    ```xml
-    <package format="3">
-      <name>cart_description</name>
-      <version>1.0.0</version>
-      <description>A robot for tests.</description>
-      <maintainer email="maintainer@example.com">The maintainers</maintainer>
-      <license>MIT</license>
-      <buildtool_depend>ament_cmake</buildtool_depend>
-      <exec_depend>robot_state_publisher</exec_depend>
-      <export>
-        <build_type>ament_cmake</build_type>
-      </export>
-    </package>
+    ```diff
+     <package format="3">
+       <name>cart_description</name>
+       <version>1.0.0</version>
+       <description>A robot for tests.</description>
+       <maintainer email="maintainer@example.com">The maintainers</maintainer>
+       <license>MIT</license>
+       <buildtool_depend>ament_cmake</buildtool_depend>
+    -  <exec_depend>robot_state_publishr</exec_depend>
+    +  <exec_depend>robot_state_publisher</exec_depend>
+       <export>
+         <build_type>ament_cmake</build_type>
+       </export>
+     </package>
     ```
 
     ## Fix safety

@@ -25,25 +25,15 @@ class NavigationSettingsInconsistent(RobotRule):
     the planner; a server does not start or waits for a topic.
 
     ## Example
-    ```yaml
-    local_costmap:
-      global_frame: odom
-      robot_base_frame: base_link
-      rolling_window: true
-      plugins:
-        - {name: inflation_layer, type: "costmap_2d::InflationLayer"}
-        - {name: obstacle_layer, type: "costmap_2d::ObstacleLayer"}
-    ```
-
-    ## Use instead
-    ```yaml
-    local_costmap:
-      global_frame: odom
-      robot_base_frame: base_link
-      rolling_window: true
-      plugins:
-        - {name: obstacle_layer, type: "costmap_2d::ObstacleLayer"}
-        - {name: inflation_layer, type: "costmap_2d::InflationLayer"}
+    ```diff
+     local_costmap:
+       global_frame: odom
+       robot_base_frame: base_link
+       rolling_window: true
+       plugins:
+    +    - {name: obstacle_layer, type: "costmap_2d::ObstacleLayer"}
+         - {name: inflation_layer, type: "costmap_2d::InflationLayer"}
+    -    - {name: obstacle_layer, type: "costmap_2d::ObstacleLayer"}
     ```
     """
 

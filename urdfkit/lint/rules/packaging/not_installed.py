@@ -20,21 +20,13 @@ class NotInstalled(RobotRule):
     After installation, the share folder of the package lacks these meshes or included files.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <visual><geometry><mesh filename="package://cart_description/shapes/block.stl"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <visual><geometry><mesh filename="package://cart_description/meshes/block.stl"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base">
+    -    <visual><geometry><mesh filename="package://cart_description/shapes/block.stl"/></geometry></visual>
+    +    <visual><geometry><mesh filename="package://cart_description/meshes/block.stl"/></geometry></visual>
+       </link>
+     </robot>
     ```
 
     ## References

@@ -61,19 +61,12 @@ class PackageXmlDependency(RobotRule):
     it. A misspelt package is not found anywhere.
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="meshes" value="$(find simpleton_description)/meshes"/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="meshes" value="$(find mybot_description)/meshes"/>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <xacro:property name="meshes" value="$(find simpleton_description)/meshes"/>
+    +  <xacro:property name="meshes" value="$(find mybot_description)/meshes"/>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

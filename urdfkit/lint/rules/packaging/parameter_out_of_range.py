@@ -16,17 +16,11 @@ class ParameterOutOfRange(RobotRule):
     milliseconds, centimetres or percent.
 
     ## Example
-    ```yaml
-    drive_controller:
-      type: diff_drive_controller/DiffDriveController
-      cmd_vel_timeout: 500.0
-    ```
-
-    ## Use instead
-    ```yaml
-    drive_controller:
-      type: diff_drive_controller/DiffDriveController
-      cmd_vel_timeout: 0.5
+    ```diff
+     drive_controller:
+       type: diff_drive_controller/DiffDriveController
+    -  cmd_vel_timeout: 500.0
+    +  cmd_vel_timeout: 0.5
     ```
     """
 

@@ -16,31 +16,18 @@ class ParameterTypeWrong(RobotRule):
     type". rcl rejects a file that has a list with both types: "Sequence should be of same type".
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        base_controller:
-          type: diff_drive_controller/DiffDriveController
-    base_controller:
-      ros__parameters:
-        left_wheel_names: [left]
-        right_wheel_names: [right]
-        wheel_separation: 1
-        wheel_radius: 0.1
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        base_controller:
-          type: diff_drive_controller/DiffDriveController
-    base_controller:
-      ros__parameters:
-        left_wheel_names: [left]
-        right_wheel_names: [right]
-        wheel_separation: 1.0
-        wheel_radius: 0.1
+    ```diff
+     controller_manager:
+       ros__parameters:
+         base_controller:
+           type: diff_drive_controller/DiffDriveController
+     base_controller:
+       ros__parameters:
+         left_wheel_names: [left]
+         right_wheel_names: [right]
+    -    wheel_separation: 1
+    +    wheel_separation: 1.0
+         wheel_radius: 0.1
     ```
     """
 

@@ -37,21 +37,13 @@ class ParameterValueInvalid(RobotRule):
     The controller does not start, or the value is ignored: of a key that occurs twice, only the last value applies.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        update_rate: -100
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        update_rate: 100
-        arm_controller:
-          type: joint_trajectory_controller/JointTrajectoryController
+    ```diff
+     controller_manager:
+       ros__parameters:
+    -    update_rate: -100
+    +    update_rate: 100
+         arm_controller:
+           type: joint_trajectory_controller/JointTrajectoryController
     ```
 
     ## Fix safety

@@ -60,17 +60,11 @@ class SpawnArgumentMisspelt(RobotRule):
     ignores unknown options: a pose or a name has no effect.
 
     ## Example
-    ```xml
-    <launch>
-      <node name="spawn" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -name cart"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node name="spawn" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -model cart"/>
-    </launch>
+    ```diff
+     <launch>
+    -  <node name="spawn" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -name cart"/>
+    +  <node name="spawn" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -model cart"/>
+     </launch>
     ```
 
     ## Fix safety

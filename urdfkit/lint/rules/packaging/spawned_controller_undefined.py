@@ -25,19 +25,12 @@ class SpawnedControllerUndefined(RobotRule):
     The spawner waits for the controller and then fails, and the robot does not move.
 
     ## Example
-    ```xml
-    <launch>
-      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
-      <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controler"/>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
-      <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controller"/>
-    </launch>
+    ```diff
+     <launch>
+       <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
+    -  <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controler"/>
+    +  <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controller"/>
+     </launch>
     ```
 
     ## Fix safety

@@ -18,17 +18,11 @@ class TopicMisspelt(RobotRule):
     The node waits for messages that never arrive, without an error.
 
     ## Example
-    ```yaml
-    amcl:
-      ros__parameters:
-        scan_topic: sacn
-    ```
-
-    ## Use instead
-    ```yaml
-    amcl:
-      ros__parameters:
-        scan_topic: scan
+    ```diff
+     amcl:
+       ros__parameters:
+    -    scan_topic: sacn
+    +    scan_topic: scan
     ```
 
     ## Fix safety

@@ -17,33 +17,19 @@ class TopicTypeMismatch(RobotRule):
     reports no error.
 
     ## Example
-    ```yaml
-    ekf_filter_node:
-      ros__parameters:
-        imu0: drive/odom
-    controller_manager:
-      ros__parameters:
-        drive:
-          type: diff_drive_controller/DiffDriveController
-    drive:
-      ros__parameters:
-        left_wheel_names: [left_wheel_joint]
-        right_wheel_names: [right_wheel_joint]
-    ```
-
-    ## Use instead
-    ```yaml
-    ekf_filter_node:
-      ros__parameters:
-        odom0: drive/odom
-    controller_manager:
-      ros__parameters:
-        drive:
-          type: diff_drive_controller/DiffDriveController
-    drive:
-      ros__parameters:
-        left_wheel_names: [left_wheel_joint]
-        right_wheel_names: [right_wheel_joint]
+    ```diff
+     ekf_filter_node:
+       ros__parameters:
+    -    imu0: drive/odom
+    +    odom0: drive/odom
+     controller_manager:
+       ros__parameters:
+         drive:
+           type: diff_drive_controller/DiffDriveController
+     drive:
+       ros__parameters:
+         left_wheel_names: [left_wheel_joint]
+         right_wheel_names: [right_wheel_joint]
     ```
     """
 

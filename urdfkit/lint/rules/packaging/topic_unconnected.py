@@ -20,21 +20,13 @@ class TopicUnconnected(RobotRule):
     The robot does not move, and no node reports an error.
 
     ## Example
-    ```xml
-    <launch>
-      <node pkg="teleop_twist_joy" exec="teleop_node">
-        <remap from="cmd_velocity" to="joy_vel"/>
-      </node>
-    </launch>
-    ```
-
-    ## Use instead
-    ```xml
-    <launch>
-      <node pkg="teleop_twist_joy" exec="teleop_node">
-        <remap from="cmd_vel" to="joy_vel"/>
-      </node>
-    </launch>
+    ```diff
+     <launch>
+       <node pkg="teleop_twist_joy" exec="teleop_node">
+    -    <remap from="cmd_velocity" to="joy_vel"/>
+    +    <remap from="cmd_vel" to="joy_vel"/>
+       </node>
+     </launch>
     ```
     """
 

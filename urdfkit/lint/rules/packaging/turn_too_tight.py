@@ -15,17 +15,11 @@ class TurnTooTight(RobotRule):
     The robot leaves the planned path in tight turns, and does not reach the goal.
 
     ## Example
-    ```yaml
-    planner_server:
-      ros__parameters:
-        GridBased: {plugin: "nav2_smac_planner::SmacPlannerHybrid", minimum_turning_radius: 0.2}
-    ```
-
-    ## Use instead
-    ```yaml
-    planner_server:
-      ros__parameters:
-        GridBased: {plugin: "nav2_smac_planner::SmacPlannerHybrid", minimum_turning_radius: 0.6}
+    ```diff
+     planner_server:
+       ros__parameters:
+    -    GridBased: {plugin: "nav2_smac_planner::SmacPlannerHybrid", minimum_turning_radius: 0.2}
+    +    GridBased: {plugin: "nav2_smac_planner::SmacPlannerHybrid", minimum_turning_radius: 0.6}
     ```
 
     ## References

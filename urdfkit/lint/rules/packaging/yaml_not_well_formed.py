@@ -35,19 +35,12 @@ class YamlNotWellFormed(RobotRule):
     reads.
 
     ## Example
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        update_rate 100
-        use_sim_time: true
-    ```
-
-    ## Use instead
-    ```yaml
-    controller_manager:
-      ros__parameters:
-        update_rate: 100
-        use_sim_time: true
+    ```diff
+     controller_manager:
+       ros__parameters:
+    -    update_rate 100
+    +    update_rate: 100
+         use_sim_time: true
     ```
     """
 

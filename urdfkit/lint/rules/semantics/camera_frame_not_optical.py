@@ -26,41 +26,23 @@ class CameraFrameNotOptical(RobotRule):
     appear above the camera instead of in front of it.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="camera_link"/>
-      <link name="camera_optical_frame"/>
-      <joint name="camera_optical_joint" type="fixed">
-        <parent link="camera_link"/><child link="camera_optical_frame"/>
-        <origin rpy="-1.5707963267948966 0 -1.5707963267948966"/>
-      </joint>
-      <gazebo reference="camera_link">
-        <sensor name="camera" type="camera">
-          <plugin name="camera" filename="libgazebo_ros_camera.so">
-            <frame_name>camera_link</frame_name>
-          </plugin>
-        </sensor>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="camera_link"/>
-      <link name="camera_optical_frame"/>
-      <joint name="camera_optical_joint" type="fixed">
-        <parent link="camera_link"/><child link="camera_optical_frame"/>
-        <origin rpy="-1.5707963267948966 0 -1.5707963267948966"/>
-      </joint>
-      <gazebo reference="camera_link">
-        <sensor name="camera" type="camera">
-          <plugin name="camera" filename="libgazebo_ros_camera.so">
-            <frame_name>camera_optical_frame</frame_name>
-          </plugin>
-        </sensor>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="camera_link"/>
+       <link name="camera_optical_frame"/>
+       <joint name="camera_optical_joint" type="fixed">
+         <parent link="camera_link"/><child link="camera_optical_frame"/>
+         <origin rpy="-1.5707963267948966 0 -1.5707963267948966"/>
+       </joint>
+       <gazebo reference="camera_link">
+         <sensor name="camera" type="camera">
+           <plugin name="camera" filename="libgazebo_ros_camera.so">
+    -        <frame_name>camera_link</frame_name>
+    +        <frame_name>camera_optical_frame</frame_name>
+           </plugin>
+         </sensor>
+       </gazebo>
+     </robot>
     ```
     """
 

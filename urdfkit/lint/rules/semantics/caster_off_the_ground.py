@@ -56,57 +56,31 @@ class CasterOffTheGround(RobotRule):
     jumps, drifts, or does not move.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
-      <link name="right"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
-      <link name="caster"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
-      </joint>
-      <joint name="caster_joint" type="fixed">
-        <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="gz::sim::systems::DiffDrive" filename="gz-sim-diff-drive-system">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-          <wheel_radius>0.1</wheel_radius>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
-      <link name="right"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
-      <link name="caster"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
-      </joint>
-      <joint name="caster_joint" type="fixed">
-        <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 -0.05"/>
-      </joint>
-      <gazebo>
-        <plugin name="gz::sim::systems::DiffDrive" filename="gz-sim-diff-drive-system">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-          <wheel_radius>0.1</wheel_radius>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+       <link name="right"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+       <link name="caster"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
+       <joint name="left_joint" type="fixed">
+         <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
+       </joint>
+       <joint name="right_joint" type="fixed">
+         <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
+       </joint>
+       <joint name="caster_joint" type="fixed">
+    -    <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 0"/>
+    +    <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 -0.05"/>
+       </joint>
+       <gazebo>
+         <plugin name="gz::sim::systems::DiffDrive" filename="gz-sim-diff-drive-system">
+           <left_joint>left_joint</left_joint>
+           <right_joint>right_joint</right_joint>
+           <wheel_separation>0.4</wheel_separation>
+           <wheel_radius>0.1</wheel_radius>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

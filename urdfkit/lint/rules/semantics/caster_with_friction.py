@@ -20,57 +20,31 @@ class CasterWithFriction(RobotRule):
     The ball does not roll but slides: its friction brakes the robot and hinders turns, so the odometry is wrong.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <link name="caster"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="caster_joint" type="fixed">
-        <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 -0.05"/>
-      </joint>
-      <gazebo reference="caster"><mu1>1</mu1></gazebo>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <link name="caster"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="caster_joint" type="fixed">
-        <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 -0.05"/>
-      </joint>
-      <gazebo reference="caster"><mu1>0.01</mu1></gazebo>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"/>
+       <link name="right"/>
+       <link name="caster"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
+       <joint name="left_joint" type="continuous">
+         <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+       </joint>
+       <joint name="right_joint" type="continuous">
+         <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+       </joint>
+       <joint name="caster_joint" type="fixed">
+         <parent link="base"/><child link="caster"/><origin xyz="-0.3 0 -0.05"/>
+       </joint>
+    -  <gazebo reference="caster"><mu1>1</mu1></gazebo>
+    +  <gazebo reference="caster"><mu1>0.01</mu1></gazebo>
+       <gazebo>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <left_joint>left_joint</left_joint>
+           <right_joint>right_joint</right_joint>
+           <wheel_separation>0.4</wheel_separation>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

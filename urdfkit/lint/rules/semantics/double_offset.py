@@ -15,41 +15,23 @@ class DoubleOffset(RobotRule):
     copy-and-paste error.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="camera_link"/>
-      <link name="camera_rgb_frame"/>
-      <joint name="camera_joint" type="fixed">
-        <parent link="base"/>
-        <child link="camera_link"/>
-        <origin xyz="0.38 0 0.2"/>
-      </joint>
-      <joint name="camera_rgb_joint" type="fixed">
-        <parent link="camera_link"/>
-        <child link="camera_rgb_frame"/>
-        <origin xyz="0.38 0 0.2"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="camera_link"/>
-      <link name="camera_rgb_frame"/>
-      <joint name="camera_joint" type="fixed">
-        <parent link="base"/>
-        <child link="camera_link"/>
-        <origin xyz="0.38 0 0.2"/>
-      </joint>
-      <joint name="camera_rgb_joint" type="fixed">
-        <parent link="camera_link"/>
-        <child link="camera_rgb_frame"/>
-        <origin xyz="0 0.02 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="camera_link"/>
+       <link name="camera_rgb_frame"/>
+       <joint name="camera_joint" type="fixed">
+         <parent link="base"/>
+         <child link="camera_link"/>
+         <origin xyz="0.38 0 0.2"/>
+       </joint>
+       <joint name="camera_rgb_joint" type="fixed">
+         <parent link="camera_link"/>
+         <child link="camera_rgb_frame"/>
+    -    <origin xyz="0.38 0 0.2"/>
+    +    <origin xyz="0 0.02 0"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -19,51 +19,29 @@ class DriveWheelWithoutFriction(RobotRule):
     The wheel spins and the robot stays where it is.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <gazebo reference="left"><mu1>0</mu1></gazebo>
-      <gazebo reference="right"><mu1>0</mu1></gazebo>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <gazebo reference="left"><mu1>1</mu1></gazebo>
-      <gazebo reference="right"><mu1>1</mu1></gazebo>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.4</wheel_separation>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="continuous">
+         <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+       </joint>
+       <joint name="right_joint" type="continuous">
+         <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+       </joint>
+    -  <gazebo reference="left"><mu1>0</mu1></gazebo>
+    -  <gazebo reference="right"><mu1>0</mu1></gazebo>
+    +  <gazebo reference="left"><mu1>1</mu1></gazebo>
+    +  <gazebo reference="right"><mu1>1</mu1></gazebo>
+       <gazebo>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <left_joint>left_joint</left_joint>
+           <right_joint>right_joint</right_joint>
+           <wheel_separation>0.4</wheel_separation>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -29,59 +29,32 @@ class DriveWheelsMisaligned(RobotRule):
     same place usually result from a wrong sign, such as ``reflect="1"`` for both sides.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0" rpy="-1.57079633 0 0"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0" rpy="1.57079633 0 0"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-      <gazebo>
-        <plugin name="gz::sim::systems::DiffDrive" filename="gz-sim-diff-drive-system">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.3</wheel_separation>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0" rpy="-1.57079633 0 0"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0" rpy="-1.57079633 0 0"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-      <gazebo>
-        <plugin name="gz::sim::systems::DiffDrive" filename="gz-sim-diff-drive-system">
-          <left_joint>left_joint</left_joint>
-          <right_joint>right_joint</right_joint>
-          <wheel_separation>0.3</wheel_separation>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="continuous">
+         <parent link="base"/>
+         <child link="left"/>
+         <origin xyz="0 0.15 0" rpy="-1.57079633 0 0"/>
+         <axis xyz="0 0 1"/>
+       </joint>
+       <joint name="right_joint" type="continuous">
+         <parent link="base"/>
+         <child link="right"/>
+    -    <origin xyz="0 -0.15 0" rpy="1.57079633 0 0"/>
+    +    <origin xyz="0 -0.15 0" rpy="-1.57079633 0 0"/>
+         <axis xyz="0 0 1"/>
+       </joint>
+       <gazebo>
+         <plugin name="gz::sim::systems::DiffDrive" filename="gz-sim-diff-drive-system">
+           <left_joint>left_joint</left_joint>
+           <right_joint>right_joint</right_joint>
+           <wheel_separation>0.3</wheel_separation>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

@@ -29,47 +29,26 @@ class FingersNotOpposed(RobotRule):
     The gripper does not close. The usual cause is the sign of an axis, or of the multiplier of ``<mimic>``.
 
     ## Example
-    ```xml
-    <robot name="gripper">
-      <link name="palm"/>
-      <link name="left_finger"/>
-      <link name="right_finger"/>
-      <joint name="left_finger_joint" type="prismatic">
-        <parent link="palm"/><child link="left_finger"/>
-        <origin xyz="0 0.01 0.1"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-      </joint>
-      <joint name="right_finger_joint" type="prismatic">
-        <parent link="palm"/><child link="right_finger"/>
-        <origin xyz="0 -0.01 0.1"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-        <mimic joint="left_finger_joint"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="gripper">
-      <link name="palm"/>
-      <link name="left_finger"/>
-      <link name="right_finger"/>
-      <joint name="left_finger_joint" type="prismatic">
-        <parent link="palm"/><child link="left_finger"/>
-        <origin xyz="0 0.01 0.1"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-      </joint>
-      <joint name="right_finger_joint" type="prismatic">
-        <parent link="palm"/><child link="right_finger"/>
-        <origin xyz="0 -0.01 0.1"/>
-        <axis xyz="0 -1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-        <mimic joint="left_finger_joint"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="gripper">
+       <link name="palm"/>
+       <link name="left_finger"/>
+       <link name="right_finger"/>
+       <joint name="left_finger_joint" type="prismatic">
+         <parent link="palm"/><child link="left_finger"/>
+         <origin xyz="0 0.01 0.1"/>
+         <axis xyz="0 1 0"/>
+         <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+       </joint>
+       <joint name="right_finger_joint" type="prismatic">
+         <parent link="palm"/><child link="right_finger"/>
+         <origin xyz="0 -0.01 0.1"/>
+    -    <axis xyz="0 1 0"/>
+    +    <axis xyz="0 -1 0"/>
+         <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+         <mimic joint="left_finger_joint"/>
+       </joint>
+     </robot>
     ```
     """
 

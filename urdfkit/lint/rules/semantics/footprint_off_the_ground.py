@@ -23,49 +23,27 @@ class FootprintOffTheGround(RobotRule):
     floats above the map or sinks into it, and its sensors measure at a wrong height.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <link name="base_link">
-        <inertial><mass value="8"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
-      </link>
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-        <collision>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </collision>
-      </link>
-      <joint name="base_joint" type="fixed">
-        <parent link="base_footprint"/><child link="base_link"/><origin xyz="0 0 -0.1"/>
-      </joint>
-      <joint name="wheel_joint" type="continuous">
-        <parent link="base_link"/><child link="wheel"/><axis xyz="0 1 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <link name="base_link">
-        <inertial><mass value="8"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
-      </link>
-      <link name="wheel">
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-        <collision>
-          <origin rpy="1.5707963267948966 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
-        </collision>
-      </link>
-      <joint name="base_joint" type="fixed">
-        <parent link="base_footprint"/><child link="base_link"/><origin xyz="0 0 0.1"/>
-      </joint>
-      <joint name="wheel_joint" type="continuous">
-        <parent link="base_link"/><child link="wheel"/><axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <link name="base_link">
+         <inertial><mass value="8"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
+       </link>
+       <link name="wheel">
+         <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+         <collision>
+           <origin rpy="1.5707963267948966 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+         </collision>
+       </link>
+       <joint name="base_joint" type="fixed">
+    -    <parent link="base_footprint"/><child link="base_link"/><origin xyz="0 0 -0.1"/>
+    +    <parent link="base_footprint"/><child link="base_link"/><origin xyz="0 0 0.1"/>
+       </joint>
+       <joint name="wheel_joint" type="continuous">
+         <parent link="base_link"/><child link="wheel"/><axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
     """
 

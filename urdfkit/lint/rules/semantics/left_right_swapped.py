@@ -19,59 +19,33 @@ class LeftRightSwapped(RobotRule):
     wrong direction from ROS Melodic on.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 -0.15 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 0.15 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-          <wheelDiameter>0.1</wheelDiameter>
-          <robotBaseFrame>base</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-          <wheelDiameter>0.1</wheelDiameter>
-          <robotBaseFrame>base</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="fixed">
+         <parent link="base"/>
+         <child link="left"/>
+    -    <origin xyz="0 -0.15 0"/>
+    +    <origin xyz="0 0.15 0"/>
+       </joint>
+       <joint name="right_joint" type="fixed">
+         <parent link="base"/>
+         <child link="right"/>
+    -    <origin xyz="0 0.15 0"/>
+    +    <origin xyz="0 -0.15 0"/>
+       </joint>
+       <gazebo>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <leftJoint>left_joint</leftJoint>
+           <rightJoint>right_joint</rightJoint>
+           <wheelSeparation>0.3</wheelSeparation>
+           <wheelDiameter>0.1</wheelDiameter>
+           <robotBaseFrame>base</robotBaseFrame>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

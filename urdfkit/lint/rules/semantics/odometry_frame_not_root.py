@@ -24,35 +24,20 @@ class OdometryFrameNotRoot(RobotRule):
     message replaces it. The parent alternates, and the links above the frame are not connected to the odometry.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <link name="base_link"/>
-      <joint name="base_joint" type="fixed">
-        <parent link="base_footprint"/><child link="base_link"/>
-      </joint>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <robotBaseFrame>base_link</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base_footprint"/>
-      <link name="base_link"/>
-      <joint name="base_joint" type="fixed">
-        <parent link="base_footprint"/><child link="base_link"/>
-      </joint>
-      <gazebo>
-        <plugin name="move" filename="libgazebo_ros_planar_move.so">
-          <robotBaseFrame>base_footprint</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base_footprint"/>
+       <link name="base_link"/>
+       <joint name="base_joint" type="fixed">
+         <parent link="base_footprint"/><child link="base_link"/>
+       </joint>
+       <gazebo>
+         <plugin name="move" filename="libgazebo_ros_planar_move.so">
+    -      <robotBaseFrame>base_link</robotBaseFrame>
+    +      <robotBaseFrame>base_footprint</robotBaseFrame>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
     """
 

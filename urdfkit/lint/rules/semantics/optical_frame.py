@@ -20,29 +20,18 @@ class OpticalFrame(RobotRule):
     Point clouds and detections are rotated by 90 degrees.
 
     ## Example
-    ```xml
-    <robot name="camera">
-      <link name="camera_link"/>
-      <link name="camera_optical_frame"/>
-      <joint name="camera_optical_joint" type="fixed">
-        <parent link="camera_link"/>
-        <child link="camera_optical_frame"/>
-        <origin rpy="0 0 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="camera" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="camera_link"/>
-      <link name="camera_optical_frame"/>
-      <joint name="camera_optical_joint" type="fixed">
-        <parent link="camera_link"/>
-        <child link="camera_optical_frame"/>
-        <origin rpy="${-pi/2} 0 ${-pi/2}"/>
-      </joint>
-    </robot>
+    ```diff
+    -<robot name="camera">
+    +<robot name="camera" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="camera_link"/>
+       <link name="camera_optical_frame"/>
+       <joint name="camera_optical_joint" type="fixed">
+         <parent link="camera_link"/>
+         <child link="camera_optical_frame"/>
+    -    <origin rpy="0 0 0"/>
+    +    <origin rpy="${-pi/2} 0 ${-pi/2}"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -16,31 +16,18 @@ class SensorViewBlocked(RobotRule):
     wrong, or the sensor at the rear is not turned.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"><visual><geometry><box size="0.4 0.3 0.2"/></geometry></visual></link>
-      <link name="lidar"/>
-      <joint name="lidar_joint" type="fixed">
-        <parent link="base"/><child link="lidar"/><origin xyz="0.1 0 0.05"/>
-      </joint>
-      <gazebo reference="lidar">
-        <sensor name="lidar" type="ray"/>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"><visual><geometry><box size="0.4 0.3 0.2"/></geometry></visual></link>
-      <link name="lidar"/>
-      <joint name="lidar_joint" type="fixed">
-        <parent link="base"/><child link="lidar"/><origin xyz="0.1 0 0.15"/>
-      </joint>
-      <gazebo reference="lidar">
-        <sensor name="lidar" type="ray"/>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"><visual><geometry><box size="0.4 0.3 0.2"/></geometry></visual></link>
+       <link name="lidar"/>
+       <joint name="lidar_joint" type="fixed">
+    -    <parent link="base"/><child link="lidar"/><origin xyz="0.1 0 0.05"/>
+    +    <parent link="base"/><child link="lidar"/><origin xyz="0.1 0 0.15"/>
+       </joint>
+       <gazebo reference="lidar">
+         <sensor name="lidar" type="ray"/>
+       </gazebo>
+     </robot>
     ```
     """
 

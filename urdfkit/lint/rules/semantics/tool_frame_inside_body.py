@@ -17,65 +17,35 @@ class ToolFrameInsideBody(RobotRule):
     that of another link, or an angle has the wrong sign.
 
     ## Example
-    ```xml
-    <robot name="gripper">
-      <link name="palm">
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-        <inertial>
-          <mass value="0.5"/>
-          <inertia ixx="0.000833" ixy="0" ixz="0" iyy="0.000833" iyz="0" izz="0.000833"/>
-        </inertial>
-      </link>
-      <link name="finger">
-        <visual><geometry><box size="0.02 0.01 0.06"/></geometry></visual>
-        <inertial>
-          <mass value="0.05"/>
-          <inertia ixx="1.54e-05" ixy="0" ixz="0" iyy="1.67e-05" iyz="0" izz="2.08e-06"/>
-        </inertial>
-      </link>
-      <link name="tcp"/>
-      <joint name="finger_joint" type="prismatic">
-        <parent link="palm"/><child link="finger"/>
-        <origin xyz="0 0.01 0.08"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-      </joint>
-      <joint name="tcp_joint" type="fixed">
-        <parent link="palm"/><child link="tcp"/>
-        <origin xyz="0 0 0.03"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="gripper">
-      <link name="palm">
-        <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-        <inertial>
-          <mass value="0.5"/>
-          <inertia ixx="0.000833" ixy="0" ixz="0" iyy="0.000833" iyz="0" izz="0.000833"/>
-        </inertial>
-      </link>
-      <link name="finger">
-        <visual><geometry><box size="0.02 0.01 0.06"/></geometry></visual>
-        <inertial>
-          <mass value="0.05"/>
-          <inertia ixx="1.54e-05" ixy="0" ixz="0" iyy="1.67e-05" iyz="0" izz="2.08e-06"/>
-        </inertial>
-      </link>
-      <link name="tcp"/>
-      <joint name="finger_joint" type="prismatic">
-        <parent link="palm"/><child link="finger"/>
-        <origin xyz="0 0.01 0.08"/>
-        <axis xyz="0 1 0"/>
-        <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
-      </joint>
-      <joint name="tcp_joint" type="fixed">
-        <parent link="palm"/><child link="tcp"/>
-        <origin xyz="0 0 0.1"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="gripper">
+       <link name="palm">
+         <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+         <inertial>
+           <mass value="0.5"/>
+           <inertia ixx="0.000833" ixy="0" ixz="0" iyy="0.000833" iyz="0" izz="0.000833"/>
+         </inertial>
+       </link>
+       <link name="finger">
+         <visual><geometry><box size="0.02 0.01 0.06"/></geometry></visual>
+         <inertial>
+           <mass value="0.05"/>
+           <inertia ixx="1.54e-05" ixy="0" ixz="0" iyy="1.67e-05" iyz="0" izz="2.08e-06"/>
+         </inertial>
+       </link>
+       <link name="tcp"/>
+       <joint name="finger_joint" type="prismatic">
+         <parent link="palm"/><child link="finger"/>
+         <origin xyz="0 0.01 0.08"/>
+         <axis xyz="0 1 0"/>
+         <limit lower="0" upper="0.03" effort="20" velocity="0.2"/>
+       </joint>
+       <joint name="tcp_joint" type="fixed">
+         <parent link="palm"/><child link="tcp"/>
+    -    <origin xyz="0 0 0.03"/>
+    +    <origin xyz="0 0 0.1"/>
+       </joint>
+     </robot>
     ```
     """
 

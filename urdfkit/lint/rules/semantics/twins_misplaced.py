@@ -45,57 +45,31 @@ class TwinsMisplaced(RobotRule):
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
-        <inertial>
-          <mass value="8"/>
-          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
-        </inertial>
-      </link>
-      <link name="left_wheel">
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-      </link>
-      <link name="right_wheel">
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-      </link>
-      <joint name="left_wheel_joint" type="continuous">
-        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_wheel_joint" type="continuous">
-        <parent link="base"/><child link="right_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base">
-        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
-        <inertial>
-          <mass value="8"/>
-          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
-        </inertial>
-      </link>
-      <link name="left_wheel">
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-      </link>
-      <link name="right_wheel">
-        <visual><geometry><sphere radius="0.1"/></geometry></visual>
-        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
-      </link>
-      <joint name="left_wheel_joint" type="continuous">
-        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_wheel_joint" type="continuous">
-        <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base">
+         <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+         <inertial>
+           <mass value="8"/>
+           <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+         </inertial>
+       </link>
+       <link name="left_wheel">
+         <visual><geometry><sphere radius="0.1"/></geometry></visual>
+         <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+       </link>
+       <link name="right_wheel">
+         <visual><geometry><sphere radius="0.1"/></geometry></visual>
+         <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+       </link>
+       <joint name="left_wheel_joint" type="continuous">
+         <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+       </joint>
+       <joint name="right_wheel_joint" type="continuous">
+    -    <parent link="base"/><child link="right_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+    +    <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+       </joint>
+     </robot>
     ```
     """
 

@@ -18,67 +18,36 @@ class WheelDiameter(RobotRule):
     The robot drives faster or slower than commanded, and its odometry is wrong by the same factor.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left">
-        <visual><geometry><sphere radius="0.05"/></geometry></visual>
-      </link>
-      <link name="right">
-        <visual><geometry><sphere radius="0.05"/></geometry></visual>
-      </link>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-          <wheelDiameter>0.2</wheelDiameter>
-          <robotBaseFrame>base</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left">
-        <visual><geometry><sphere radius="0.05"/></geometry></visual>
-      </link>
-      <link name="right">
-        <visual><geometry><sphere radius="0.05"/></geometry></visual>
-      </link>
-      <joint name="left_joint" type="fixed">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-      </joint>
-      <joint name="right_joint" type="fixed">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-          <wheelDiameter>0.1</wheelDiameter>
-          <robotBaseFrame>base</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left">
+         <visual><geometry><sphere radius="0.05"/></geometry></visual>
+       </link>
+       <link name="right">
+         <visual><geometry><sphere radius="0.05"/></geometry></visual>
+       </link>
+       <joint name="left_joint" type="fixed">
+         <parent link="base"/>
+         <child link="left"/>
+         <origin xyz="0 0.15 0"/>
+       </joint>
+       <joint name="right_joint" type="fixed">
+         <parent link="base"/>
+         <child link="right"/>
+         <origin xyz="0 -0.15 0"/>
+       </joint>
+       <gazebo>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <leftJoint>left_joint</leftJoint>
+           <rightJoint>right_joint</rightJoint>
+           <wheelSeparation>0.3</wheelSeparation>
+    -      <wheelDiameter>0.2</wheelDiameter>
+    +      <wheelDiameter>0.1</wheelDiameter>
+           <robotBaseFrame>base</robotBaseFrame>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

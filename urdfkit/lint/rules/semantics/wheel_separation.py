@@ -25,63 +25,34 @@ class WheelSeparation(RobotRule):
     The robot turns more or less than commanded, and its odometry is wrong by the same factor.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.2</wheelSeparation>
-          <wheelDiameter>0.1</wheelDiameter>
-          <robotBaseFrame>base</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="left"/>
-      <link name="right"/>
-      <joint name="left_joint" type="continuous">
-        <parent link="base"/>
-        <child link="left"/>
-        <origin xyz="0 0.15 0"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_joint" type="continuous">
-        <parent link="base"/>
-        <child link="right"/>
-        <origin xyz="0 -0.15 0"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-      <gazebo>
-        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
-          <leftJoint>left_joint</leftJoint>
-          <rightJoint>right_joint</rightJoint>
-          <wheelSeparation>0.3</wheelSeparation>
-          <wheelDiameter>0.1</wheelDiameter>
-          <robotBaseFrame>base</robotBaseFrame>
-        </plugin>
-      </gazebo>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="left"/>
+       <link name="right"/>
+       <joint name="left_joint" type="continuous">
+         <parent link="base"/>
+         <child link="left"/>
+         <origin xyz="0 0.15 0"/>
+         <axis xyz="0 1 0"/>
+       </joint>
+       <joint name="right_joint" type="continuous">
+         <parent link="base"/>
+         <child link="right"/>
+         <origin xyz="0 -0.15 0"/>
+         <axis xyz="0 1 0"/>
+       </joint>
+       <gazebo>
+         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+           <leftJoint>left_joint</leftJoint>
+           <rightJoint>right_joint</rightJoint>
+    -      <wheelSeparation>0.2</wheelSeparation>
+    +      <wheelSeparation>0.3</wheelSeparation>
+           <wheelDiameter>0.1</wheelDiameter>
+           <robotBaseFrame>base</robotBaseFrame>
+         </plugin>
+       </gazebo>
+     </robot>
     ```
 
     ## Fix safety

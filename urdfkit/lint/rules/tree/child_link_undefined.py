@@ -18,20 +18,12 @@ class ChildLinkUndefined(RobotRule):
     The joint has no child link: urdfdom, Pinocchio and every viewer reject the robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+    +  <link name="upper"/>
+       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -15,25 +15,15 @@ class DuplicateJoint(RobotRule):
     joints.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="hand"/>
-      <joint name="wrist" type="fixed"><parent link="base"/><child link="upper"/></joint>
-      <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="hand"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-      <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+       <link name="hand"/>
+    -  <joint name="wrist" type="fixed"><parent link="base"/><child link="upper"/></joint>
+    +  <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+       <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint>
+     </robot>
     ```
     """
 

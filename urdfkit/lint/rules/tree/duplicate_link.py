@@ -19,22 +19,13 @@ class DuplicateLink(RobotRule):
     links.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+    -  <link name="upper"/>
+       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+     </robot>
     ```
     """
 

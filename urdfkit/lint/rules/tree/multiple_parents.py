@@ -15,26 +15,15 @@ class MultipleParents(RobotRule):
     the joints; Pinocchio and MuJoCo reject it.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="hand"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-      <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint>
-      <joint name="brace" type="fixed"><parent link="base"/><child link="hand"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <link name="hand"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-      <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+       <link name="hand"/>
+       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+       <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint>
+    -  <joint name="brace" type="fixed"><parent link="base"/><child link="hand"/></joint>
+     </robot>
     ```
     """
 

@@ -16,23 +16,15 @@ class MultipleRoots(RobotRule):
     silently welds the second tree to the world.
 
     ## Example
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="lidar"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-      <link name="lidar"/>
-      <joint name="lidar_joint" type="fixed">
-        <parent link="base"/>
-        <child link="lidar"/>
-      </joint>
-    </robot>
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="lidar"/>
+    +  <joint name="lidar_joint" type="fixed">
+    +    <parent link="base"/>
+    +    <child link="lidar"/>
+    +  </joint>
+     </robot>
     ```
     """
 

@@ -14,16 +14,10 @@ class NoLinks(RobotRule):
     urdfdom rejects the file: "No link elements found in urdf file".
 
     ## Example
-    ```xml
-    <robot name="cart">
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="cart">
+    +  <link name="base"/>
+     </robot>
     ```
     """
 

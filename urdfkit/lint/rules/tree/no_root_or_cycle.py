@@ -17,22 +17,13 @@ class NoRootOrCycle(RobotRule):
     loop, and silently drop a loop next to a tree. Some tools do not terminate.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-      <joint name="back" type="fixed"><parent link="upper"/><child link="base"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+    -  <joint name="back" type="fixed"><parent link="upper"/><child link="base"/></joint>
+     </robot>
     ```
     """
 

@@ -20,21 +20,13 @@ class ParentLinkUndefined(RobotRule):
     The joint has no parent link: urdfdom, Pinocchio and every viewer reject the robot.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="bsae"/><child link="upper"/></joint>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper"/>
-      <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
-    </robot>
+    ```diff
+     <robot name="arm">
+       <link name="base"/>
+       <link name="upper"/>
+    -  <joint name="shoulder" type="fixed"><parent link="bsae"/><child link="upper"/></joint>
+    +  <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
+     </robot>
     ```
 
     ## Fix safety

@@ -14,32 +14,20 @@ class RootLinkHasInertia(RobotRule):
     the mass, and a floating base requires it, so this is a note, and only for ROS.
 
     ## Example
-    ```xml
-    <robot name="arm">
-      <link name="base_link">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm">
-      <link name="base_footprint"/>
-      <joint name="base_joint" type="fixed">
-        <parent link="base_footprint"/>
-        <child link="base_link"/>
-      </joint>
-      <link name="base_link">
-        <inertial>
-          <mass value="1"/>
-          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-        </inertial>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm">
+    +  <link name="base_footprint"/>
+    +  <joint name="base_joint" type="fixed">
+    +    <parent link="base_footprint"/>
+    +    <child link="base_link"/>
+    +  </joint>
+       <link name="base_link">
+         <inertial>
+           <mass value="1"/>
+           <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+         </inertial>
+       </link>
+     </robot>
     ```
     """
 

@@ -13,25 +13,15 @@ class ConditionalNotBoolean(FaultRule):
     xacro aborts with an error.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="finish" value="steel"/>
-      <xacro:if value="${finish}">
-        <material name="steel"/>
-      </xacro:if>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="finish" value="steel"/>
-      <xacro:if value="${finish == 'steel'}">
-        <material name="steel"/>
-      </xacro:if>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:property name="finish" value="steel"/>
+    -  <xacro:if value="${finish}">
+    +  <xacro:if value="${finish == 'steel'}">
+         <material name="steel"/>
+       </xacro:if>
+       <link name="base"/>
+     </robot>
     ```
     """
 

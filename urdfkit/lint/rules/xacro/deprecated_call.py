@@ -18,25 +18,15 @@ class DeprecatedCall(SourceRule):
     unprefixed name.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="arm" params="file">
-        <xacro:property name="lengths" value="${load_yaml(file)}"/>
-        <link name="${lengths}"/>
-      </xacro:macro>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="arm" params="file">
-        <xacro:property name="lengths" value="${xacro.load_yaml(file)}"/>
-        <link name="${lengths}"/>
-      </xacro:macro>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="arm" params="file">
+    -    <xacro:property name="lengths" value="${load_yaml(file)}"/>
+    +    <xacro:property name="lengths" value="${xacro.load_yaml(file)}"/>
+         <link name="${lengths}"/>
+       </xacro:macro>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

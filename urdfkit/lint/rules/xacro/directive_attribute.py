@@ -18,19 +18,12 @@ class DirectiveAttribute(FaultRule):
     that use the property fail. A comma after a parameter becomes part of its name.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" vlaue="0.4"/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <xacro:property name="length" vlaue="0.4"/>
+    +  <xacro:property name="length" value="0.4"/>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

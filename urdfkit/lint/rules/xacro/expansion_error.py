@@ -19,19 +19,12 @@ class ExpansionError(FaultRule):
     xacro aborts with an error.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property value="0.4"/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <xacro:property value="0.4"/>
+    +  <xacro:property name="length" value="0.4"/>
+       <link name="base"/>
+     </robot>
     ```
     """
 

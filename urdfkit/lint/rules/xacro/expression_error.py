@@ -17,21 +17,13 @@ class ExpressionError(FaultRule):
     xacro aborts with an error, or copies the expression to the robot unchanged.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual><geometry><sphere radius="${1/0}"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual><geometry><sphere radius="${1/2}"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="base">
+    -    <visual><geometry><sphere radius="${1/0}"/></geometry></visual>
+    +    <visual><geometry><sphere radius="${1/2}"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

@@ -13,21 +13,14 @@ class IncludeCycle(FaultRule):
     xacro recurses until it exceeds the recursion limit of Python.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="loop">
-        <xacro:loop/>
-      </xacro:macro>
-      <xacro:loop/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <xacro:macro name="loop">
+    -    <xacro:loop/>
+    -  </xacro:macro>
+    -  <xacro:loop/>
+       <link name="base"/>
+     </robot>
     ```
     """
 

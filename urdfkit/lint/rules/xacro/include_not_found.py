@@ -24,18 +24,11 @@ class IncludeNotFound(FaultRule):
     xacro aborts with an error. Everything that the file defines is undefined.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:include filename="wheels_that_are_nowhere.xacro"/>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <xacro:include filename="wheels_that_are_nowhere.xacro"/>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

@@ -16,19 +16,12 @@ class IncludeWithParameters(SourceRule):
     the file defines.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-      <xacro:include filename="nothing.xacro" optional="true" prefix="left_"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-      <xacro:include filename="nothing.xacro" optional="true"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="base"/>
+    -  <xacro:include filename="nothing.xacro" optional="true" prefix="left_"/>
+    +  <xacro:include filename="nothing.xacro" optional="true"/>
+     </robot>
     ```
 
     ## Fix safety

@@ -18,33 +18,19 @@ class InertiaArguments(SourceRule):
     doubles.
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="ball_inertia" params="m r">
-        <inertia ixx="${2*m*r*r/5}" ixy="0" ixz="0" iyy="${2*m*r*r/5}" iyz="0" izz="${2*m*r*r/5}"/>
-      </xacro:macro>
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <xacro:ball_inertia m="0.5" r="0.1"/>
-        </inertial>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="ball_inertia" params="m r">
-        <inertia ixx="${2*m*r*r/5}" ixy="0" ixz="0" iyy="${2*m*r*r/5}" iyz="0" izz="${2*m*r*r/5}"/>
-      </xacro:macro>
-      <link name="base">
-        <inertial>
-          <mass value="1"/>
-          <xacro:ball_inertia m="1" r="0.1"/>
-        </inertial>
-      </link>
-    </robot>
+    ```diff
+     <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="ball_inertia" params="m r">
+         <inertia ixx="${2*m*r*r/5}" ixy="0" ixz="0" iyy="${2*m*r*r/5}" iyz="0" izz="${2*m*r*r/5}"/>
+       </xacro:macro>
+       <link name="base">
+         <inertial>
+           <mass value="1"/>
+    -      <xacro:ball_inertia m="0.5" r="0.1"/>
+    +      <xacro:ball_inertia m="1" r="0.1"/>
+         </inertial>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -17,25 +17,15 @@ class InertiaFormula(SourceRule):
     wrong inertia.
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="box_inertia" params="m x y z">
-        <inertia ixx="${m*(y*y+z*z)/12}" ixy="0" ixz="0"
-                 iyy="${m*(x*x+z*z)/12}" iyz="0" izz="${m*(x*x+z*z)/12}"/>
-      </xacro:macro>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="box_inertia" params="m x y z">
-        <inertia ixx="${m*(y*y+z*z)/12}" ixy="0" ixz="0"
-                 iyy="${m*(x*x+z*z)/12}" iyz="0" izz="${m*(x*x+y*y)/12}"/>
-      </xacro:macro>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="box_inertia" params="m x y z">
+         <inertia ixx="${m*(y*y+z*z)/12}" ixy="0" ixz="0"
+    -             iyy="${m*(x*x+z*z)/12}" iyz="0" izz="${m*(x*x+z*z)/12}"/>
+    +             iyy="${m*(x*x+z*z)/12}" iyz="0" izz="${m*(x*x+y*y)/12}"/>
+       </xacro:macro>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

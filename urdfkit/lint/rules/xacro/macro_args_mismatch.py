@@ -16,23 +16,14 @@ class MacroArgsMismatch(FaultRule):
     xacro aborts with "Undefined parameters" and does not report which call is wrong.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="frame" params="name parent">
-        <link name="${parent}_${name}"/>
-      </xacro:macro>
-      <xacro:frame name="tool"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="frame" params="name parent">
-        <link name="${parent}_${name}"/>
-      </xacro:macro>
-      <xacro:frame name="tool" parent="hand"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="frame" params="name parent">
+         <link name="${parent}_${name}"/>
+       </xacro:macro>
+    -  <xacro:frame name="tool"/>
+    +  <xacro:frame name="tool" parent="hand"/>
+     </robot>
     ```
     """
 

@@ -18,19 +18,12 @@ class PropertyUsedBeforeDefinition(FaultRule):
     xacro evaluates properties from top to bottom (the only mode since ROS Melodic) and aborts at the first use.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="${side}_arm"/>
-      <xacro:property name="side" value="left"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="side" value="left"/>
-      <link name="${side}_arm"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    +  <xacro:property name="side" value="left"/>
+       <link name="${side}_arm"/>
+    -  <xacro:property name="side" value="left"/>
+     </robot>
     ```
 
     ## Fix safety

@@ -29,28 +29,17 @@ class RoundedPi(SourceRule):
     provides ``pi``.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="PI" value="3.1415926535897931"/>
-      <link name="base">
-        <visual>
-          <origin rpy="${PI/2} 0 1.57"/>
-          <geometry><cylinder radius="0.1" length="0.2"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual>
-          <origin rpy="${pi/2} 0 ${pi/2}"/>
-          <geometry><cylinder radius="0.1" length="0.2"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <xacro:property name="PI" value="3.1415926535897931"/>
+       <link name="base">
+         <visual>
+    -      <origin rpy="${PI/2} 0 1.57"/>
+    +      <origin rpy="${pi/2} 0 ${pi/2}"/>
+           <geometry><cylinder radius="0.1" length="0.2"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

@@ -31,21 +31,13 @@ class TooLarge(FaultRule):
     xacro runs until the memory is exhausted, or forever.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual><geometry><sphere radius="${9**9**9}"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual><geometry><sphere radius="${9**9}"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="base">
+    -    <visual><geometry><sphere radius="${9**9**9}"/></geometry></visual>
+    +    <visual><geometry><sphere radius="${9**9}"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

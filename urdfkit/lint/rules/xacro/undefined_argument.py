@@ -17,18 +17,11 @@ class UndefinedArgument(FaultRule):
     xacro aborts unless every caller passes the argument.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="$(arg prefix)base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:arg name="prefix" default=""/>
-      <link name="$(arg prefix)base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    +  <xacro:arg name="prefix" default=""/>
+       <link name="$(arg prefix)base"/>
+     </robot>
     ```
     """
 

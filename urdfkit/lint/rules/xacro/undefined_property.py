@@ -14,23 +14,14 @@ class UndefinedProperty(FaultRule):
     xacro aborts with an error that contains the expression, but neither the attribute nor the column.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base">
-        <visual><geometry><box size="${lenght} 1 1"/></geometry></visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="length" value="0.4"/>
-      <link name="base">
-        <visual><geometry><box size="${length} 1 1"/></geometry></visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:property name="length" value="0.4"/>
+       <link name="base">
+    -    <visual><geometry><box size="${lenght} 1 1"/></geometry></visual>
+    +    <visual><geometry><box size="${length} 1 1"/></geometry></visual>
+       </link>
+     </robot>
     ```
     """
 

@@ -17,27 +17,16 @@ class UnexpandedExpression(RobotRule):
     text of the expression.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual>
-          <origin rpy="{$-pi/2} 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.2"/></geometry>
-        </visual>
-      </link>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base">
-        <visual>
-          <origin rpy="${-pi/2} 0 0"/>
-          <geometry><cylinder radius="0.1" length="0.2"/></geometry>
-        </visual>
-      </link>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="base">
+         <visual>
+    -      <origin rpy="{$-pi/2} 0 0"/>
+    +      <origin rpy="${-pi/2} 0 0"/>
+           <geometry><cylinder radius="0.1" length="0.2"/></geometry>
+         </visual>
+       </link>
+     </robot>
     ```
 
     ## Fix safety

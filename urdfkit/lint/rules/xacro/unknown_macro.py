@@ -21,23 +21,14 @@ class UnknownMacro(FaultRule):
     xacro aborts with an error that contains the name of the macro, but not the line of the call.
 
     ## Example
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="frame" params="name">
-        <link name="${name}"/>
-      </xacro:macro>
-      <xacro:fram name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="frame" params="name">
-        <link name="${name}"/>
-      </xacro:macro>
-      <xacro:frame name="base"/>
-    </robot>
+    ```diff
+     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="frame" params="name">
+         <link name="${name}"/>
+       </xacro:macro>
+    -  <xacro:fram name="base"/>
+    +  <xacro:frame name="base"/>
+     </robot>
     ```
 
     ## Fix safety

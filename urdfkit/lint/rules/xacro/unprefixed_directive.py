@@ -22,23 +22,15 @@ class UnprefixedDirective(SourceRule):
     not defined"), an include is not read, and the elements are copied to the robot.
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <macro name="wheel" params="side">
-        <link name="${side}_wheel"/>
-      </macro>
-      <link name="base"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="wheel" params="side">
-        <link name="${side}_wheel"/>
-      </xacro:macro>
-      <link name="base"/>
-    </robot>
+    ```diff
+     <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    -  <macro name="wheel" params="side">
+    +  <xacro:macro name="wheel" params="side">
+         <link name="${side}_wheel"/>
+    -  </macro>
+    +  </xacro:macro>
+       <link name="base"/>
+     </robot>
     ```
 
     ## Fix safety

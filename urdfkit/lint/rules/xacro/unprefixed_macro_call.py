@@ -21,23 +21,14 @@ class UnprefixedMacroCall(SourceRule):
     wheels or the inertia, is missing, although check_urdf reports "Successfully Parsed".
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="frame" params="name">
-        <link name="${name}_frame"/>
-      </xacro:macro>
-      <frame name="left"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="frame" params="name">
-        <link name="${name}_frame"/>
-      </xacro:macro>
-      <xacro:frame name="left"/>
-    </robot>
+    ```diff
+     <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <xacro:macro name="frame" params="name">
+         <link name="${name}_frame"/>
+       </xacro:macro>
+    -  <frame name="left"/>
+    +  <xacro:frame name="left"/>
+     </robot>
     ```
 
     ## Fix safety

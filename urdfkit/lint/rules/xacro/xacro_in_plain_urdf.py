@@ -22,18 +22,12 @@ class XacroInPlainUrdf(SourceRule):
     missing and ``${…}`` takes the place of numbers.
 
     ## Example
-    ```xml
-    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <link name="base"/>
-      <xacro:property name="width" value="0.3"/>
-    </robot>
-    ```
-
-    ## Use instead
-    ```xml
-    <robot name="cart">
-      <link name="base"/>
-    </robot>
+    ```diff
+    -<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    +<robot name="cart">
+       <link name="base"/>
+    -  <xacro:property name="width" value="0.3"/>
+     </robot>
     ```
     """
 
