@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -161,6 +162,23 @@ def test_colour_choices(package, capsys, monkeypatch):
     monkeypatch.setenv("NO_COLOR", "1")
     assert main(["lint"]) == 1
     assert "\x1b[" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("arguments", [["rule", "I503"], ["lint", "--diff"], ["format", "--diff"]], ids=" ".join)
+def test_diffs_are_in_color_in_a_terminal(arguments, package, capsys, monkeypatch):
+    Path("ugly.urdf").write_text('<robot name="cart" >\n <link name="base" ></link>\n</robot>\n')
+    main(arguments)
+    plain = capsys.readouterr().out
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True, raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    main(arguments)
+    colored = capsys.readouterr().out
+    assert colored.count("\x1b[31m-") >= 1
+    assert colored.count("\x1b[32m+") >= 1
+    assert re.sub(r"\x1b\[\d+m", "", colored) == plain
+    monkeypatch.setenv("NO_COLOR", "1")
+    main(arguments)
+    assert capsys.readouterr().out == plain
 
 
 def test_the_process_loads_no_heavy_modules(package):

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.cli.colors import colored_diff
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
 from urdfkit.lint.fixes.file_changes import FileChange
 
@@ -72,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
         if change is not None:
             changes.append(change)
             if arguments.diff:
-                sys.stdout.write(change.diff())
+                sys.stdout.write(colored_diff(change.diff()))
             elif arguments.check:
                 print(f"would format {change.shown}")
             else:

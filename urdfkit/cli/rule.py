@@ -38,11 +38,20 @@ def run(arguments: argparse.Namespace) -> int:
     wanted = arguments.code
     for rule in rules():
         if wanted.upper() == rule.code or wanted.lower() == rule.name:
-            print(page(rule))
+            print(_colored(page(rule)))
             return 0
     names = [word for rule in rules() for word in (rule.code, rule.name)]
     hint = did_you_mean(wanted, names) or f"; try `urdfkit rule --search {wanted}`"
     raise UsageError(f"unknown rule `{wanted}`{hint}")
+
+
+def _colored(page: str) -> str:
+    """Return a page with the lines of its example in color."""
+    from urdfkit.cli.colors import colored_diff
+
+    head, fence, rest = page.partition("```diff")
+    example, end, tail = rest.partition("\n```")
+    return f"{head}{fence}{colored_diff(example)}{end}{tail}"
 
 
 def _search(words: list[str]) -> tuple[type[Rule], ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shlex
 import sys
 import time
@@ -79,6 +78,7 @@ def show(outcome: Outcome, form: str, paths: Sequence[str], *, statistics: bool,
 
 
 def _text(outcome: Outcome, findings: list[Finding], color: str, paths: Sequence[str]) -> None:
+    from urdfkit.cli.colors import uses_color
     from urdfkit.lint.report.groups import commands, worst_first
     from urdfkit.lint.report.text import TextReport, summary
 
@@ -87,7 +87,7 @@ def _text(outcome: Outcome, findings: list[Finding], color: str, paths: Sequence
         from urdfkit.cli.parser import columns
 
         width = columns()
-    report = TextReport(outcome.sources, colour=_colour(color), width=width)
+    report = TextReport(outcome.sources, colour=uses_color(color), width=width)
     for finding in worst_first(findings):
         print(report.finding(finding), end="\n\n")
     print(summary(findings))
@@ -106,9 +106,3 @@ def _count(findings: Sequence[Finding], *, as_json: bool) -> None:
         print(json.dumps([dict(zip(keys, row, strict=True)) for row in counts(findings)], indent=1))
     else:
         print("\n".join([*statistics(findings), summary(findings)]))
-
-
-def _colour(choice: str) -> bool:
-    if choice != "auto":
-        return choice == "always"
-    return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"

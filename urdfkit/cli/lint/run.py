@@ -71,8 +71,10 @@ class Run:
         return self._report(fixed.outcome), fixed.outcome
 
     def _show(self, fixed: Fixed) -> int:
+        from urdfkit.cli.colors import colored_diff
+
         for change in fixed.changes:
-            sys.stdout.write(change.diff())
+            sys.stdout.write(colored_diff(change.diff(), self._arguments.color))
         refused = self._refuse(fixed.outcome)
         remaining = sum(finding.severity != "note" for finding in self._left(fixed.outcome).findings)
         if remaining:

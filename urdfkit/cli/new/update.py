@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from urdfkit.cli.colors import colored_diff
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold import (
     NEW_SUFFIX,
@@ -39,7 +40,6 @@ _WORDS = {
 }
 _JOINT = re.compile(r"\b\w+_joint\b")
 """Names of joints in the templates."""
-_COLOURS = {"+": "32", "-": "31", "@": "36"}
 
 
 def run(
@@ -82,7 +82,7 @@ def run(
                 if (into / f"{path}{NEW_SUFFIX}").is_file()
             )
             return 0
-        _show(update.changes, recipe.relative_to(into), colour=_coloured(arguments.color), quiet=arguments.quiet)
+        _show(update.changes, recipe.relative_to(into), color=arguments.color, quiet=arguments.quiet)
         if _has_option(arguments, "diff") or (update.refused and not update.new_versions):
             if update.refused:
                 raise ResourceError(f"nothing was changed: {update.refused}")
@@ -216,14 +216,13 @@ def with_relative_source(template: Template, into: Path) -> Template:
     return replace(template, source=os.path.relpath(template.folder, into.resolve()))
 
 
-def _show(changes: tuple[Change, ...], recipe: Path, *, colour: bool, quiet: bool) -> None:
+def _show(changes: tuple[Change, ...], recipe: Path, *, color: str, quiet: bool) -> None:
     for change in changes:
         print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(at=_saved_as(change), because=change.because)}")
         if quiet or change.is_empty or change.path == recipe:
             continue
         for line in _difference(change):
-            code = _COLOURS.get(line[:1])
-            print(f"\x1b[{code}m{line}\x1b[0m" if colour and code else line)
+            print(colored_diff(line, color))
 
 
 def _difference(change: Change) -> Iterator[str]:
@@ -255,7 +254,3 @@ def _is_confirmed(count: int, refused: str) -> bool:
     question = f"Save {files} to merge from?" if refused else f"Change {files}?"
     print(f"{question} [y/N] ", end="", file=sys.stderr, flush=True)
     return sys.stdin.readline().strip().lower() in ("y", "yes")
-
-
-def _coloured(choice: str) -> bool:
-    return choice == "always" or (choice == "auto" and sys.stdout.isatty() and "NO_COLOR" not in os.environ)
