@@ -7,12 +7,12 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.engine.cache import packages_of
 from urdfkit.lint.engine.package_without_robot import empty_root, package_model, package_rules
 from urdfkit.lint.engine.rule_runner import RuleRunner
 from urdfkit.lint.finding import EntryResult, Finding
+from urdfkit.lint.model.element_facts import ElementFacts
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.cost_limit import CostError
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.engine.cache import Cache
-    from urdfkit.lint.model.placement import Extent
 
 _DEFINED_BY_ROBOT = ("undefined-macro", "undefined-property")
 
@@ -40,7 +39,7 @@ def model_of(
     *,
     packages: Packages | None = None,
     memory: Memory | None = None,
-    extents: dict[Element, Extent] | None = None,
+    facts: ElementFacts | None = None,
 ) -> Model:
     """Expand a file with error recovery and parse the robot in it.
 
@@ -49,7 +48,7 @@ def model_of(
         options: how to expand it.
         packages: package resolver; by default for packages near the file and in the environment.
         memory: parsed files of earlier calls.
-        extents: see `Model.cached_extents`.
+        facts: see `Model.facts`.
 
     Raises:
         ResourceError: the file cannot be read.
@@ -79,7 +78,8 @@ def model_of(
     parsed = memory.parts if memory is not None else None
     robot = parse(root if root is not None else empty_root(path), cached_parts=parsed)
     target, release = family_of(options.target), release_of(options.target)
-    return Model(expanded, robot, target, as_written, release, options.texts, extents if extents is not None else {})
+    kept = facts if facts is not None else ElementFacts()
+    return Model(expanded, robot, target, as_written, release, options.texts, kept)
 
 
 _OPTIONAL = re.compile(r"<!--.*?(?:-->|\Z)|\$\(optenv\s+([^\s)]+)", re.DOTALL)
@@ -195,10 +195,10 @@ class Checker:
 
             note = "; ".join(filter(None, (note, inapplicable(options.select, family_of(options.target)))))
         packages, clean = self.packages.near_file(entry.path), self.runner.clean
-        extents = clean.extents if clean is not None else None
+        facts = clean.facts if clean is not None else None
         if not entry.has_robot:
             return self._check_package(entry, options, packages, note)
-        model = model_of(entry.path, options, packages=packages, memory=self.memory, extents=extents)
+        model = model_of(entry.path, options, packages=packages, memory=self.memory, facts=facts)
         self.sources.update(model.expanded.sources)
         self.runner.failures = []
         if not entry.is_library and _is_part(model):

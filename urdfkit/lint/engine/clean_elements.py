@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.element_facts import ElementFacts
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.model.placement import Extent
 from urdfkit.lint.rule import Rule
 
 _MAX_NEW = 0.25
@@ -22,13 +22,11 @@ class CleanElements:
     """The children of the root element in which rules found nothing at the last check of one entry file.
 
     Attributes:
-        features: of each link, joint and other child, for `urdfkit.lint.facts.features.features_of`.
-        extents: for `urdfkit.lint.model.model.Model.cached_extents`.
+        facts: facts of the elements of the last check.
     """
 
     def __init__(self) -> None:
-        self.features: dict[Element, frozenset[str]] = {}
-        self.extents: dict[Element, Extent] = {}
+        self.facts = ElementFacts()
         self._surroundings: object = None
         self._clean: dict[str, frozenset[Element]] = {}
 

@@ -77,9 +77,8 @@ class RuleRunner:
         outside = related_file_rules(model.related_files)
         if self.clean is not None:
             self.clean.begin(model)
-        features = self.clean.features if self.clean is not None else None
         findings: list[Finding] = []
-        for rule in (*robot_rules(model.robot, model.target, features, model.key), *outside, *foreign):
+        for rule in (*robot_rules(model.robot, model.target, model.facts, model.key), *outside, *foreign):
             if self.applies(rule, model.target):
                 findings += self.robot_findings(rule, entry.path, model)
         return findings

@@ -5,6 +5,7 @@ set must be complete: a rule whose feature is missing does not run.
 """
 
 import re
+from collections import Counter
 from collections.abc import Callable, Hashable
 from math import pi
 
@@ -26,6 +27,7 @@ from urdfkit.description.urdf.robot import (
 from urdfkit.description.urdf.version import RATES
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers
+from urdfkit.lint.model.element_facts import ElementFacts
 
 _TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 _FAR = 2.0 * pi
@@ -36,37 +38,23 @@ _PART = re.compile(r"left|front|steer|wheel|(?<![a-z])(?:f[lr]|[rb]l|l[fbh]|rf|l
 
 def features_of(
     robot: Robot,
-    earlier: dict[Element, frozenset[str]] | None = None,
-    key: Callable[[Element], Hashable] | None = None,
+    facts: ElementFacts | None = None,
+    key: Callable[[Link | Joint | Element], Hashable] | None = None,
 ) -> set[str]:
     """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``.
 
     Args:
         robot: the robot.
-        earlier: the features of each child of the root element from an earlier call; updated by this function.
+        facts: facts of its elements at an earlier check; updated by this function.
         key: returns the same for children of the root element that differ in names only; None if all differ.
     """
+    facts = ElementFacts() if facts is None else facts
     root = robot.element
     found = _of_elements(Element(root.tag, root.attributes, [], root.text, root.origin))
-    parts: dict[Element, Link | Joint] = {link.element: link for link in robot.links}
-    parts.update((joint.element, joint) for joint in robot.joints)
-    cached, features = earlier or {}, {}
-    by_key: dict[Hashable, frozenset[str]] = {}
-    for child in root.children:
-        of_child = cached.get(child)
-        if of_child is None:
-            part = parts.get(child)
-            alike = child if key is None else key(child)
-            of_child = by_key.get(alike)
-            if of_child is None:
-                of_child = by_key[alike] = _of_child(child, part)
-            if part is not None and _is_unusual(part.name):
-                of_child |= {"name!"}
-        features[child] = of_child
-    found.update(*features.values())
-    if earlier is not None:
-        earlier.clear()
-        earlier.update(features)
+    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
+    by_element = {part.element: part for part in parts}
+    children: list[Link | Joint | Element] = [by_element.get(child, child) for child in root.children]
+    found.update(*{*facts.of(_of_child, children, key), *facts.of(_of_names, parts)})
     found.update(f"{problem.kind}!" for problem in robot.problems)
     if robot.element.tag != "robot" or not robot.element.get("name"):
         found.add("unnamed!")
@@ -74,26 +62,42 @@ def features_of(
         found.add("childless!")
     if "version" in robot.element.attributes:
         found.add("version!")
-    tensors: dict[tuple[float, ...], int] = {}
-    for link in robot.links:
-        inertia = link.inertial.inertia if link.inertial is not None else None
-        if inertia is not None:
-            values = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
-            tensors[values] = tensors.get(values, 0) + 1
+    tensors = Counter(facts.of(inertia_components, robot.links))
+    del tensors[None]
     if max(tensors.values(), default=0) > 2:
         found.add("copied!")
     _of_tree(robot, found)
     return found
 
 
-def _of_child(element: Element, part: Link | Joint | None) -> frozenset[str]:
-    """Return the features of a child of the root element, and of the link or joint read from it, except of its name."""
-    found = _of_elements(element)
-    if part is not None:
-        if isinstance(part, Link):
-            _of_link(part, found)
-        else:
-            _of_joint(part, found)
+def inertia_components(link: Link) -> tuple[float, ...] | None:
+    """Return ixx, ixy, ixz, iyy, iyz and izz of a link; None without an inertia."""
+    inertia = link.inertial.inertia if link.inertial is not None else None
+    if inertia is None:
+        return None
+    return inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz
+
+
+def _of_child(part: Link | Joint | Element) -> frozenset[str]:
+    """Return the features of a link, a joint or another child of the root element, except of its names."""
+    if isinstance(part, Element):
+        return frozenset(_of_elements(part))
+    found = _of_elements(part.element)
+    if isinstance(part, Link):
+        _of_link(part, found)
+    else:
+        _of_joint(part, found)
+    return frozenset(found)
+
+
+def _of_names(part: Link | Joint) -> frozenset[str]:
+    """Return the features of the names in a link or joint."""
+    found = {"name!"} if _is_unusual(part.name) else set()
+    if isinstance(part, Joint):
+        if _PART.search(part.name):
+            found.add("part!")
+        if part.child is not None and "optical" in part.child.lower():
+            found.add("optical!")
     return frozenset(found)
 
 
@@ -177,14 +181,10 @@ def _of_tree(robot: Robot, found: set[str]) -> None:
         found.add("parents!")
     if len({*links, *robot.joint_by_name}) < len(robot.links) + len(robot.joints):
         found.add("same-name!")
-    if any(_PART.search(joint.name) for joint in robot.joints):
-        found.add("part!")
     for joint in robot.joints:
         child, parent = joint.child, joint.parent
         if parent not in links or child not in links:
             found.add("dangling!")
-        if child is not None and "optical" in child.lower():
-            found.add("optical!")
         if parent in reached and child is not None and child != parent:
             reached.add(child)
         else:

@@ -12,17 +12,24 @@ from urdfkit.description.xml.element import Element
 
 def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
     """Yield every mesh that has a file name, with its ``<mesh>`` element and link."""
+    for link in robot.links:
+        yield from meshes_of(link)
+
+
+def meshes_of(link: Link) -> list[tuple[Mesh, Element, Link]]:
+    """Return the meshes of a link that have a file name, each with its ``<mesh>`` element and the link."""
     from urdfkit.description.urdf.robot import Mesh
     from urdfkit.lint.model.placement import shapes_of
 
-    for link in robot.links:
-        for item in shapes_of(link):
-            if not isinstance(item.geometry, Mesh) or not item.geometry.uri.strip():
-                continue
-            geometry = item.element.find("geometry")
-            element = geometry.find("mesh") if geometry is not None else None
-            if element is not None:
-                yield item.geometry, element, link
+    found = []
+    for item in shapes_of(link):
+        if not isinstance(item.geometry, Mesh) or not item.geometry.uri.strip():
+            continue
+        geometry = item.element.find("geometry")
+        element = geometry.find("mesh") if geometry is not None else None
+        if element is not None:
+            found.append((item.geometry, element, link))
+    return found
 
 
 def path_of(mesh: Mesh, expanded: Expanded) -> Path | None:

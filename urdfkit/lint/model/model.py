@@ -8,6 +8,7 @@ from functools import cached_property
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source, Span
+from urdfkit.lint.model.element_facts import ElementFacts
 from urdfkit.lint.model.mesh_boxes import MeshBoxes
 from urdfkit.lint.model.repeated_elements import content_key
 from urdfkit.lint.model.tags import Document
@@ -16,7 +17,7 @@ from urdfkit.record import field, record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Hashable, Mapping
+    from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
     from pathlib import Path
 
     from urdfkit.description.urdf.robot import Joint, Link, Mesh, Vector
@@ -60,7 +61,7 @@ class Model:
         expand_as_written: expands the robot without adding missing prefixes; see `as_written`.
         release: release of the target (``jazzy``); empty if unspecified.
         texts: absolute path → content that replaces the file on disk.
-        cached_extents: extents of links without meshes from an earlier check, by element; updated by `extents`.
+        facts: facts of elements that an earlier check of the same file may have computed.
         mesh_boxes: bounding boxes of meshes.
     """
 
@@ -70,7 +71,7 @@ class Model:
     expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
     release: str = ""
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
-    cached_extents: dict[Element, Extent] = field(default_factory=dict, repr=False)
+    facts: ElementFacts = field(default_factory=ElementFacts, repr=False)
     mesh_boxes: MeshBoxes = field(default_factory=MeshBoxes, repr=False)
 
     @cached_property
@@ -239,8 +240,9 @@ class Model:
                 pending += [child for child in element.children if child.tag in allowed]
         return found
 
-    def key(self, element: Element) -> Hashable:
-        """Return the `content_key` of a child of the root element."""
+    def key(self, part: Link | Joint | Element) -> Hashable:
+        """Return the `content_key` of a link, a joint or another child of the root element."""
+        element: Element = getattr(part, "element", part)
         found = self._keys.get(element)
         if found is None:
             found = self._keys[element] = content_key(element)
@@ -278,14 +280,14 @@ class Model:
             robot.packages,
             robot.arguments,
         )
-        return Model(self.expanded, part, self.target, None, self.release, self.texts, {}, self.mesh_boxes)
+        return Model(self.expanded, part, self.target, None, self.release, self.texts, ElementFacts(), self.mesh_boxes)
 
     @cached_property
     def meshes(self) -> list[tuple[Mesh, Element, Link]]:
         """Every mesh that has a file name, with its ``<mesh>`` element and link."""
-        from urdfkit.lint.model.mesh_files import meshes
+        from urdfkit.lint.model.mesh_files import meshes_of
 
-        return list(meshes(self.robot))
+        return [mesh for meshes in self.facts.of(meshes_of, self.robot.links) for mesh in meshes]
 
     @cached_property
     def frames(self) -> dict[str, Frame]:
@@ -308,30 +310,25 @@ class Model:
         return {}
 
     def _compute_extents(self, estimated: Mapping[str, Extent]) -> dict[str, Extent]:
-        from urdfkit.description.urdf.robot import Mesh
-        from urdfkit.lint.model.placement import extent, shapes_of
+        from urdfkit.lint.model.placement import extent, extent_of_primitives, shapes_of
 
-        counts = Counter(link.name for link in self.robot.links)
-        # Which shapes of a duplicate link apply is undefined.
-        once = (link for link in self.robot.links if counts[link.name] == 1)
-        earlier = dict(self.cached_extents)
+        once: Sequence[Link] = self.robot.links
+        if len(self.robot.link_by_name) < len(once):  # Which shapes of a duplicate link apply is undefined.
+            counts = Counter(link.name for link in once)
+            once = [link for link in once if counts[link.name] == 1]
         alike: dict[Hashable, Extent] = {}
-        self.cached_extents.clear()
         found = {}
-        for link in once:
-            element = link.element
-            filled = earlier.get(element)
+        for link, filled in zip(once, self.facts.of(extent_of_primitives, once, self.key), strict=True):
+            if filled is None and (shapes := shapes_of(link)):  # with a mesh, or of unknown size
+                key = self.key(link)
+                if link.name in estimated and not self.mesh_boxes.are_new(shapes):
+                    filled = estimated[link.name]
+                else:
+                    filled = alike.get(key) or extent(link, self.box_of)
+                if filled is not None:
+                    alike[key] = filled
             if filled is not None:
-                found[link.name] = self.cached_extents[element] = filled
-                continue
-            if link.name in estimated and not self.mesh_boxes.are_new(shapes_of(link)):
-                found[link.name] = estimated[link.name]
-                continue
-            filled = alike.get(self.key(element)) or extent(link, self.box_of)
-            if filled is not None:
-                found[link.name] = alike[self.key(element)] = filled
-                if not any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
-                    self.cached_extents[element] = filled
+                found[link.name] = filled
         return found
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from math import hypot, sqrt
 
 from urdfkit.description.urdf.geometry import (
@@ -61,7 +62,7 @@ def shapes_of(link: Link) -> tuple[Visual | Collision, ...]:
     return (*link.visuals, *link.collisions)
 
 
-@record
+@record(eq=False)
 class Extent:
     """Extent of the shapes of a link, in the link's frame.
 
@@ -77,7 +78,7 @@ class Extent:
     shapes: tuple[tuple[Geometry, Pose], ...]
     volumes: tuple[float, ...]
 
-    @property
+    @cached_property
     def diagonal(self) -> float:
         """The length of the box's diagonal [m]."""
         (a, b, c), (x, y, z) = self.low, self.high
@@ -146,6 +147,11 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
     return Extent(low, high, tuple(shapes), tuple(volumes))
 
 
+def extent_of_primitives(link: Link) -> Extent | None:
+    """Return the extent of a link's shapes; None if it has no shapes, a mesh or a shape of unknown size."""
+    return extent(link, lambda mesh: None)
+
+
 def solid(link: Link, extents: Mapping[str, Extent]) -> tuple[Extent | None, bool]:
     """Return the extent of a link, and whether it contains the visual shapes.
 
@@ -160,7 +166,7 @@ def solid(link: Link, extents: Mapping[str, Extent]) -> tuple[Extent | None, boo
     is_hidden = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
     if found is not None or not is_hidden or not shapes or any(isinstance(shape, Mesh) for shape in shapes):
         return found, bool(link.visuals)
-    return extent(Link(link.name, link.inertial, (), link.collisions, link.element), lambda mesh: None), False
+    return extent_of_primitives(Link(link.name, link.inertial, (), link.collisions, link.element)), False
 
 
 def _is_impossible(shape: Geometry) -> bool:

@@ -16,9 +16,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
     from typing import Any
 
-    from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.urdf.robot import Joint, Link, Robot
     from urdfkit.description.xml.element import Element
     from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.element_facts import ElementFacts
     from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
     from urdfkit.lint.table import Row
 
@@ -63,22 +64,22 @@ def related_file_rules(files: Iterable[str]) -> tuple[type[RobotRule], ...]:
 def robot_rules(
     robot: Robot | None = None,
     target: str | None = None,
-    earlier: dict[Element, frozenset[str]] | None = None,
-    key: Callable[[Element], Hashable] | None = None,
+    facts: ElementFacts | None = None,
+    key: Callable[[Link | Joint | Element], Hashable] | None = None,
 ) -> tuple[type[RobotRule], ...]:
     """Return the rules for the expanded robot.
 
     Args:
         robot: skip the rules that cannot apply to this robot; None returns all rules.
         target: with a robot, None skips the rules that apply only to some targets.
-        earlier: see `urdfkit.lint.facts.features.features_of`.
+        facts: see `urdfkit.lint.facts.features.features_of`.
         key: see `urdfkit.lint.facts.features.features_of`.
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *RELATED_FILES, *TARGETED)))
     from urdfkit.lint.facts.features import features_of
 
-    features = features_of(robot, earlier, key)
+    features = features_of(robot, facts, key)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not features.isdisjoint(row[0].split())))
 

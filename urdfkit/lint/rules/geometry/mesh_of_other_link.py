@@ -49,8 +49,9 @@ class MeshOfOtherLink(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each link with the mesh of another link."""
-        pairs = [(link, *_stems(link)) for link in model.robot.links]
-        both = [(link, visual, collision) for link, visual, collision in pairs if visual and collision]
+        links = model.robot.links
+        pairs = zip(links, model.facts.of(_stems, links), strict=True)
+        both = [(link, visual, collision) for link, (visual, collision) in pairs if visual and collision]
         equal = Counter(visual for _, visual, collision in both if visual == collision)
         different = [each for each in both if each[1] != each[2]]
         if len(different) > 1 or sum(equal.values()) < 2:

@@ -124,16 +124,21 @@ def _median(ordered: list[float]) -> float:
 def _reference_sizes(model: Model) -> list[float]:
     """Return the distances between joints and the sizes of shapes other than meshes [m]."""
     sizes = [hypot(*joint.origin.xyz) for joint in model.robot.joints]
-    extents = model.extents
-    for link in model.robot.links:
-        shapes = shapes_of(link)
-        primitives = [shape for shape in shapes if not isinstance(shape.geometry, Mesh)]
-        if link.name in extents and len(primitives) == len(shapes):
+    extents, links = model.extents, model.robot.links
+    for link, (others, has_mesh) in zip(links, model.facts.of(_other_sizes, links), strict=True):
+        if not has_mesh and link.name in extents:
             sizes.append(extents[link.name].diagonal)
-        elif primitives:  # A shape next to a mesh has about the same size.
-            corners = (box_around(shape.geometry, shape.origin) for shape in primitives if shape.geometry is not None)
-            sizes += [dist(low, high) for low, high in corners]
+        else:  # A shape next to a mesh has about the same size.
+            sizes += others
     return sizes
+
+
+def _other_sizes(link: Link) -> tuple[list[float], bool]:
+    """Return the sizes of the shapes of a link that are no meshes [m], and whether it has a mesh."""
+    shapes = shapes_of(link)
+    primitives = [shape for shape in shapes if not isinstance(shape.geometry, Mesh)]
+    corners = (box_around(shape.geometry, shape.origin) for shape in primitives if shape.geometry is not None)
+    return [dist(low, high) for low, high in corners], len(primitives) < len(shapes)
 
 
 def _radius_of_gyration(link: Link) -> float:

@@ -1,13 +1,10 @@
 """I510 inertia-copy-paste."""
 
 from itertools import pairwise
-from operator import attrgetter
 
 from urdfkit.description.urdf.robot import Link
-from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
+from urdfkit.lint.facts.features import inertia_components
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-_values = attrgetter(*COMPONENTS)
 
 
 class InertiaCopyPaste(RobotRule):
@@ -58,18 +55,15 @@ class InertiaCopyPaste(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that several links of different size share, at the first link."""
         groups: dict[tuple[float, ...], list[Link]] = {}
-        for link in model.robot.links:
-            inertia = link.inertial.inertia if link.inertial is not None else None
-            if inertia is not None and link.inertial is not None:
-                values = _values(inertia)
-                if any(values):
-                    groups.setdefault(values, []).append(link)
-        for links in groups.values():
-            if len(links) < 3:
+        for link, values in zip(model.robot.links, model.facts.of(inertia_components, model.robot.links), strict=True):
+            if values is not None:
+                groups.setdefault(values, []).append(link)
+        for values, links in groups.items():
+            if len(links) < 3 or not any(values):
                 continue
             every = model.extents
-            extents = {id(extent): extent for link in links if (extent := every.get(link.name)) is not None}
-            sizes = sorted({round(extent.diagonal, 6) for extent in extents.values()})
+            diagonals = {extent.diagonal for link in links if (extent := every.get(link.name)) is not None}
+            sizes = sorted({round(diagonal, 6) for diagonal in diagonals})
             size_steps = [a for a, b in pairwise(sizes) if b > 1.1 * a]
             inertial = links[0].inertial
             if not size_steps or inertial is None or inertial.inertia is None:
