@@ -38,6 +38,7 @@ CHANGES = (
     *(("mass value", "mass vlue"), ("<mass ", "<mas "), ("<axis", "<axsi"), ("<collision>", "<colision>")),
     *(('<mass value="1.0"/>', '<mass value="1.0"/><mass value="2"/>'), ("link_3", "link_4"), ("link_4", "link_3")),
     *(("rgba", "rgba="), ("1 1 1 1", "1 1 1 0.1"), ("<box size", "<box sise"), ('"link_5"', '"\'link_5"')),
+    *(("0 0 0.2", "0 0 0.25"), ("0 0 0.2", "0 0 20"), ("0 1 0", "0 0 1"), ("revolute", "fixed"), ("revolute", "x")),
     *(("${m * 0.0035}", "0.0035"), ("0.0035", "${m * 0.0035}"), ("m * ", "2 * "), ("<visual>", '<visual foo="1">')),
 )
 

@@ -6,10 +6,9 @@ from collections import Counter
 from collections.abc import Iterator
 from math import dist
 
-from urdfkit.description.urdf.geometry import product, rotate, unit
-from urdfkit.description.urdf.robot import Joint, Pose, Vector
+from urdfkit.description.urdf.geometry import product, rotate, rotation_of, unit
+from urdfkit.description.urdf.robot import Joint, Robot, Vector
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.model.placement import Frame
 
 _TURNING = ("revolute", "continuous")
 
@@ -20,44 +19,54 @@ _DISTANCE = 1e-4
 """Largest distance between two axes on one line [m]."""
 
 
-def turning_joint_above(joint: Joint, model: Model) -> tuple[Joint, Frame] | None:
-    """Return the moving joint that carries a joint, and the frame of the joint in it; None if it does not turn."""
-    frame, parent = Frame().moved(joint.origin), joint.parent
-    for _ in model.robot.joints:
-        above = model.robot.parents_of.get(parent or "", [])
-        if len(above) != 1:
-            return None
-        if above[0].is_movable:
-            return (above[0], frame) if above[0].type in _TURNING else None
-        outer = Frame().moved(above[0].origin)
-        place = outer.moved(Pose(frame.translation)).translation
-        frame = Frame(product(outer.rotation, frame.rotation), place)
-        parent = above[0].parent
-    return None
-
-
 def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
     """Yield each joint that turns about the same line as the moving joint that carries it: upper joint, lower joint.
 
     A joint that carries several moving joints, such as the waist of a humanoid, has an effect of its own. Joints
     without <origin> are not placed yet, and the place of one with an undefined property is unknown.
     """
-    carriers = [(joint, turning_joint_above(joint, model)) for joint in model.robot.joints if joint.is_movable]
-    counts = Counter(above[0].name for _, above in carriers if above is not None)
-    for joint, above in carriers:
-        axis, origin = unit(joint.axis), joint.element.find("origin")
-        if joint.type not in _TURNING or joint.mimic is not None or axis is None or origin is None:
-            continue
-        if above is None or above[0].mimic is not None or counts[above[0].name] > 1:
-            continue
-        carrier, frame = above
-        other = unit(carrier.axis)
-        if other is None:
-            continue
-        turned = rotate(frame.rotation, axis)
-        along = sum(a * b for a, b in zip(frame.translation, other, strict=True))
-        nearest: Vector = (along * other[0], along * other[1], along * other[2])
-        cosine = abs(sum(a * b for a, b in zip(turned, other, strict=True)))
-        is_on_line = cosine > _PARALLEL and dist(nearest, frame.translation) < _DISTANCE
-        if is_on_line and not (model.is_unresolved(origin, "xyz") or model.is_unresolved(origin, "rpy")):
-            yield carrier, joint
+    chains = [chain for joint in model.robot.joints if (chain := _up_to_turning_joint(joint, model.robot))]
+    counts = Counter(chain[-1].name for chain in chains)
+    alone = [chain for chain in chains if counts[chain[-1].name] == 1]
+    for chain, is_on_line in zip(alone, model.facts.of(turn_about_one_line, alone), strict=True):
+        origin = chain[0].element.find("origin") if is_on_line else None
+        if origin is not None and not (model.is_unresolved(origin, "xyz") or model.is_unresolved(origin, "rpy")):
+            yield chain[-1], chain[0]
+
+
+def _up_to_turning_joint(joint: Joint, robot: Robot) -> tuple[Joint, ...]:
+    """Return a moving joint, the fixed joints above it, and the turning joint that carries them; empty without one."""
+    if not joint.is_movable:
+        return ()
+    chain = [joint]
+    while len(chain) <= len(robot.joints):
+        above = robot.parents_of.get(chain[-1].parent or "", ())
+        if len(above) != 1:
+            return ()
+        chain += above
+        if above[0].is_movable:
+            return tuple(chain) if above[0].type in _TURNING else ()
+    return ()
+
+
+def turn_about_one_line(chain: tuple[Joint, ...]) -> bool:
+    """Return whether the first and the last of some joints, with fixed joints between, turn about the same line."""
+    joint, *fixed, carrier = chain
+    if joint.type not in _TURNING or joint.mimic is not None or carrier.mimic is not None:
+        return False
+    axis, line = unit(joint.axis), unit(carrier.axis)
+    if axis is None or line is None or joint.element.find("origin") is None:
+        return False
+    place, turn = joint.origin.xyz, rotation_of(joint.origin.rpy)
+    for each in fixed:
+        outer, offset = rotation_of(each.origin.rpy), each.origin.xyz
+        x, y, z = rotate(outer, place)
+        place, turn = (offset[0] + x, offset[1] + y, offset[2] + z), product(outer, turn)
+    along = _dot(place, line)
+    if dist((along * line[0], along * line[1], along * line[2]), place) >= _DISTANCE:
+        return False
+    return abs(_dot(rotate(turn, axis), line)) > _PARALLEL
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import box_around
-from urdfkit.description.urdf.robot import Joint, Mesh, Vector
+from urdfkit.description.urdf.robot import Joint, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.model.placement import Extent, Frame, shapes_of
+from urdfkit.lint.model.placement import Extent, Frame
 from urdfkit.record import record
 
 _EXACT = 1e-4
@@ -54,36 +54,43 @@ def misplaced(model: Model) -> Iterator[Place]:
     Compares joints that turn or slide within limits, and fixed joints with such joints below, but not the joints of
     steered wheels, which are next to the chassis. The joints of one macro count as one.
     """
-    places, off = set[object](), dict[object, Place]()
-    for place in _places(model):
-        position = place.element.origin.position
-        places.add(position)
-        if abs(place.depth) > max(_EXACT, abs(off[position].depth) if position in off else 0.0):
-            off[position] = place
+    compared, off = list[Joint](), dict[object, Place]()
+    for joint, below, parent in _depths(model):
+        compared.append(joint)
+        if abs(below) <= _EXACT:
+            continue
+        element = _origin(joint)
+        position = element.origin.position
+        if position not in off or abs(below) > abs(off[position].depth):
+            off[position] = Place(joint, element, below, parent, model.extents.get(joint.child or ""))
             if len(off) > 1:
                 return
     one = next(iter(off.values()), None)
-    if one is not None and len(places) > _FEWEST and not model.is_unresolved(one.element, "xyz"):
+    if one is None or model.is_unresolved(one.element, "xyz"):
+        return
+    if len({_origin(joint).origin.position for joint in compared}) > _FEWEST:
         size = one.parent.diagonal
         is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None
         if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
 
 
-def _places(model: Model) -> Iterator[Place]:
-    carriers, axles = _carriers(model), {joint.parent for joint in model.robot.joints if joint.type == "continuous"}
-    extents = model.extents
-    for joint in model.robot.joints:
+def _depths(model: Model) -> Iterator[tuple[Joint, float, Extent]]:
+    """Yield the joints that are compared, with the depth below the surface of the parent link and its extent."""
+    joints, extents = model.robot.joints, model.extents
+    axles = {joint.parent for joint in joints if joint.type == "continuous"}
+    carriers = _carriers(model) if any(joint.type == "fixed" for joint in joints) else set()
+    meshed = {link.name for _, _, link in model.meshes}
+    for joint in joints:
         is_compared = joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers)
-        parent, link = extents.get(joint.parent or ""), model.robot.link_by_name.get(joint.parent or "")
-        is_steering = joint.type == "revolute" and joint.child in axles
-        if not is_compared or is_steering or parent is None or link is None:
+        parent = extents.get(joint.parent or "") if is_compared else None
+        if parent is None or joint.parent in meshed or (joint.type == "revolute" and joint.child in axles):
             continue
-        if any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
-            continue
-        element = joint.element.find("origin") or joint.element
-        child = extents.get(joint.child or "")
-        yield Place(joint, element, depth(joint.origin.xyz, parent), parent, child)
+        yield joint, depth(joint.origin.xyz, parent), parent
+
+
+def _origin(joint: Joint) -> Element:
+    return joint.element.find("origin") or joint.element
 
 
 def _carriers(model: Model) -> set[str]:
@@ -100,9 +107,9 @@ def _carriers(model: Model) -> set[str]:
 
 def depth(point: Vector, extent: Extent) -> float:
     """Return the depth of a point below the surface of the box around the shapes of a link; negative outside [m]."""
-    if outside := extent.outside(point):
-        return -outside
-    return min(min(x - a, b - x) for a, x, b in zip(extent.low, point, extent.high, strict=True))
+    (a, b, c), (x, y, z), (d, e, f) = extent.low, point, extent.high
+    least = min(x - a, d - x, y - b, e - y, z - c, f - z)
+    return least if least >= 0.0 else -extent.outside(point)
 
 
 def _overlap(place: Place) -> float:

@@ -90,22 +90,25 @@ class OriginTooFar(RobotRule):
         largest = max((distance for _, distance in distances), default=0.0)
         if largest < _MIN_GAP:
             return
-        if not model.extents:
+        extents = model.extents
+        if not extents:
             yield from self._among_joints(model, distances)
             return
-        size = max(extent.diagonal for extent in model.extents.values())
+        sizes = {name: extent.diagonal for name, extent in extents.items()}
+        size = max(sizes.values())
         children = {joint.child for joint in model.robot.joints}
         is_complete = not model.is_incomplete and all(
-            link.name in model.extents or not shapes_of(link) for link in model.robot.links
+            link.name in extents or not shapes_of(link) for link in model.robot.links
         )
         if is_complete:
             yield from self._outside(model)
         checked = 0
         for joint, distance in distances:
+            if distance <= _MIN_GAP or distance <= (near := min(size, _times_its_links(joint, sizes))):
+                continue
             origin = joint.element.find("origin")
-            is_placed_in_world = joint.parent not in children and joint.parent not in model.extents
-            near = min(size, _times_its_links(joint, model))
-            if distance <= max(near, _MIN_GAP) or origin is None or is_placed_in_world:
+            is_placed_in_world = joint.parent not in children and joint.parent not in extents
+            if origin is None or is_placed_in_world:
                 continue
             message, help = "", "write offsets in metres"
             if distance >= max(_MIN_DISTANCE, _TIMES * size):
@@ -139,13 +142,15 @@ class OriginTooFar(RobotRule):
     def _outside(self, model: Model) -> Findings:
         """Yield a finding for the only moving joint that is not at its parent link."""
         moving = [joint for joint in model.robot.joints if joint.type in ("revolute", "continuous", "prismatic")]
+        if not _MIN_CHAIN <= len(moving) <= _MAX_CHECKED:
+            return
         parents = [model.extents.get(joint.parent or "") for joint in moving]
         gaps = [
             (_distance((joint.origin.xyz, joint.origin.xyz), (parent.low, parent.high)), joint, parent.diagonal)
             for joint, parent in zip(moving, parents, strict=True)
             if parent is not None
         ]
-        if not _MIN_CHAIN <= len(gaps) <= _MAX_CHECKED or len(gaps) < len(moving):
+        if len(gaps) < len(moving):
             return
         (second, _, _), (gap, joint, size) = sorted(gaps, key=lambda each: each[0])[-2:]
         origin = joint.element.find("origin")
@@ -157,11 +162,9 @@ class OriginTooFar(RobotRule):
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
 
 
-def _times_its_links(joint: Joint, model: Model) -> float:
+def _times_its_links(joint: Joint, sizes: dict[str, float]) -> float:
     """Return a multiple of the size of the larger of the two links of a joint [m]; infinite if a size is unknown."""
-    extents = [model.extents.get(name or "") for name in (joint.parent, joint.child)]
-    sizes = [extent.diagonal for extent in extents if extent is not None]
-    return _TIMES_ITS_LINKS * max(sizes) if len(sizes) == len(extents) else inf
+    return _TIMES_ITS_LINKS * max(sizes.get(joint.parent or "", inf), sizes.get(joint.child or "", inf))
 
 
 def _gap(joint: Joint, model: Model) -> float:

@@ -59,9 +59,11 @@ class SlideOffItsParent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each prismatic joint that separates its links."""
         for joint in model.robot.joints:
+            if joint.type != "prismatic":
+                continue
             parent, child = (model.extents.get(name or "") for name in (joint.parent, joint.child))
             limit, axis = joint.limit, unit(joint.axis)
-            if joint.type != "prismatic" or parent is None or child is None or limit is None or axis is None:
+            if parent is None or child is None or limit is None or axis is None:
                 continue
             low, high = limit.lower or 0.0, limit.upper or 0.0
             if high <= low or _gap(joint, axis, (0.0,), parent, child) > 0.02 * (high - low):
