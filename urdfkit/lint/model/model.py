@@ -242,7 +242,7 @@ class Model:
 
     def key(self, part: Link | Joint | Element) -> Hashable:
         """Return the `content_key` of a link, a joint or another child of the root element."""
-        element: Element = getattr(part, "element", part)
+        element = part if isinstance(part, Element) else part.element
         found = self._keys.get(element)
         if found is None:
             found = self._keys[element] = content_key(element)
