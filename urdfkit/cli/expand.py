@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_model, add_time_limit
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
+from urdfkit.cli.robot_arguments.robot_loading import add_macro, named_robot
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.description.xacro.expanded import Expanded
@@ -51,9 +51,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _run(arguments: argparse.Namespace) -> int:
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.expand import expand
-    from urdfkit.resources import find_model
 
-    model = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+    model = named_robot(arguments.model, arguments)
     # A path is passed as typed, because the banner shows it, as in stock xacro.
     typed = next((word for word in arguments.model if ":=" not in word and Path(word).is_file()), str(model.path))
     packages = Packages(model.package_path, model.path)

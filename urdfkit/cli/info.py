@@ -9,9 +9,13 @@ from collections import Counter
 from typing import Any
 
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.robot_loading import (
+    add_macro,
+    add_strict,
+    load_with_notes,
+    named_robot,
+    repairs_as_json,
+)
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError, shortened
@@ -27,20 +31,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = "examples:\n  urdfkit info simpleton\n  urdfkit info urdf/arm.urdf.xacro --json"
     add_model(parser)
     add_macro(parser)
-    add_strict(parser, "a second root link")
+    add_strict(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON value")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the properties of the robot."""
     from urdfkit.description.xml.cost_limit import loading_limit
-    from urdfkit.resources import find_model
 
-    model = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+    model = named_robot(arguments.model, arguments)
     with loading_limit():
-        robot = load_robot(model, arguments)
-        note_unused(model, robot.files, quiet=arguments.quiet)
-        print_repairs(robot, quiet=arguments.quiet)
+        robot = load_with_notes(model, arguments)
         facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:
         print(f"urdfkit: note: {facts['note']}", file=sys.stderr)

@@ -9,11 +9,11 @@ import os
 import sys
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.page import note
+from urdfkit.app.page import Page, note
 from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import UsageError
 
@@ -68,12 +68,26 @@ def read_layout(arguments: argparse.Namespace) -> dict[str, Any] | None:
     return layout
 
 
-def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
-    """Return a function that prints the address of a page on standard output and opens a browser.
+def page_of(
+    mode: str, arguments: argparse.Namespace, layout: dict[str, Any] | None, watchers_may: Sequence[str] = ()
+) -> Page:
+    """Return a page that, when it opens, prints its address on standard output and opens a browser.
 
     Args:
+        mode: ``view`` or ``sim``.
         arguments: with the options of `add_page_options`.
+        layout: the one of `read_layout`, which is read before the robot is loaded.
+        watchers_may: see `Page`.
+
+    Raises:
+        UsageError: the port is busy or the address cannot be bound.
     """
+    host, port, opened = arguments.host, arguments.port, announce(arguments)
+    return Page(mode, host=host, port=port, opened=opened, watchers_may=watchers_may, layout=layout)
+
+
+def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
+    """Return a function that prints the address of a page on standard output and opens a browser."""
 
     def opened(server: Server) -> None:
         from urdfkit.network.access_control import is_loopback
@@ -95,7 +109,7 @@ def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
 
 
 def opens_browser(arguments: argparse.Namespace) -> bool:
-    """Whether `announce` opens a browser: the command line permits it and there is a screen."""
+    """Whether a page opens a browser: the command line permits it and there is a screen."""
     return not arguments.no_browser and _has_screen()
 
 

@@ -6,16 +6,20 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.page import Page, note, require_page, until_interrupted
-from urdfkit.cli.page_options import add_page_options, announce, read_layout
+from urdfkit.app.page import note, require_page, until_interrupted
+from urdfkit.cli.page_options import add_page_options, page_of, read_layout
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.picture_options import add_picture_options, check_picture_options, set_picture_defaults, write_pictures
-from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, shown_repairs
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.robot_loading import (
+    add_macro,
+    add_strict,
+    named_robot,
+    shown_repairs,
+    warn_of_file_names,
+    warn_of_unused_arguments,
+)
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -64,18 +68,17 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.app.viewer.shown_robot import ShownRobot
     from urdfkit.app.viewer.viewing import html_page
     from urdfkit.atomic import write_text
-    from urdfkit.resources import find_model
 
     if is_picture:
         check_picture_options(arguments)
     check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
-    named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+    named = named_robot(arguments.model, arguments)
     model = with_launch_arguments(named, arguments)
 
     def read() -> ShownRobot:
         with listing_required_arguments(model, quiet=arguments.quiet):
             shown = ShownRobot.read(model, strict=arguments.strict)
-        note_unused(named, shown.files, quiet=arguments.quiet)
+        warn_of_unused_arguments(named, shown.files, quiet=arguments.quiet)
         warn_of_file_names(shown.kinematics.robot, quiet=arguments.quiet)
         note_repairs(shown_repairs(shown.repairs, quiet=arguments.quiet))
         return shown
@@ -97,9 +100,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.live is not None:
             _follow(arguments, shown, layout)
             return 0
-        opened = announce(arguments)
-        page = Page("view", host=arguments.host, port=arguments.port, opened=opened, layout=layout)
-        view_and_simulate(page, model, shown, strict=arguments.strict)
+        view_and_simulate(page_of("view", arguments, layout), model, shown, strict=arguments.strict)
     return 0
 
 
@@ -107,6 +108,6 @@ def _follow(arguments: argparse.Namespace, shown: ShownRobot, layout: dict[str, 
     """Show a live robot until interrupted."""
     from urdfkit.app.replay.live_view import following
 
-    page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments), layout=layout)
+    page = page_of("sim", arguments, layout)
     with following(page, shown, arguments.live, note, fixed_frame=arguments.fixed_frame) as session:
         session.run()

@@ -14,6 +14,7 @@ from urdfkit.app.page import note, require_packages, require_page
 from urdfkit.cli.kinematics.ik.targets import poses_of_file
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
+from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
 from urdfkit.cli.sim.option_values import positive, seed
@@ -113,29 +114,15 @@ def run(arguments: argparse.Namespace) -> int:
             "orientations; use --position-only",
             file=sys.stderr,
         )
-    shows = sys.stderr.isatty() and not arguments.quiet
-    found = reach_map(
-        chain,
-        resolution=arguments.resolution,
-        orientations=_orientations(arguments),
-        position_only=arguments.position_only,
-        collision_free=arguments.collision_free,
-        seed=arguments.seed,
-        progress=_show if shows else _silent,
-    )
-    base = None
-    if poses is not None:
-        base = base_placement(
-            chain,
-            found,
-            poses,
-            position_only=arguments.position_only,
-            collision_free=arguments.collision_free,
-            seed=arguments.seed,
-            progress=_show if shows else _silent,
-        )
-    if shows:
-        sys.stderr.write("\r\x1b[K")
+    with ProgressLine(quiet=arguments.quiet) as progress:
+        search: dict[str, Any] = {
+            "position_only": arguments.position_only,
+            "collision_free": arguments.collision_free,
+            "seed": arguments.seed,
+            "progress": progress,
+        }
+        found = reach_map(chain, resolution=arguments.resolution, orientations=_orientations(arguments), **search)
+        base = base_placement(chain, found, poses, **search) if poses is not None else None
     if arguments.output is not None:
         write_map(arguments.output, found)
         if not arguments.quiet:
@@ -227,15 +214,6 @@ def _text(found: ReachMap, base: BasePlacement | None) -> str:
 
 def _numbers(values: Any) -> str:
     return ", ".join(f"{value:.4g}" for value in [round(float(value), 9) + 0.0 for value in values])
-
-
-def _show(text: str) -> None:
-    sys.stderr.write(f"\r\x1b[K{text}\r")
-    sys.stderr.flush()
-
-
-def _silent(text: str) -> None:
-    return None
 
 
 def _axis(text: str) -> tuple[float, float, float]:

@@ -8,10 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.parser import add_package_path
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.robot_loading import add_robot_options, load_with_notes, named_robot, repairs_as_json
 from urdfkit.cli.sim.option_values import positive
 from urdfkit.errors import UsageError, did_you_mean
 
@@ -70,9 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write the motion to a .csv, .npz or .json file (default: CSV to standard output)",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value")
-    add_macro(parser)
-    add_strict(parser, "a second root link")
-    add_package_path(parser)
+    add_robot_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -84,17 +79,14 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"retime: -o {output}: unsupported file type; use {', '.join(_FILES)}{hint}")
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
-    from urdfkit.resources import find_model
 
     require_pinocchio("retime")
     from urdfkit.kinematics.retiming import find_joint_limits, motion_limits, read_path, retime
 
     path = read_path(file)
-    found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
+    found = named_robot(model, arguments)
     with loading_limit():
-        robot = load_robot(found, arguments)
-        note_unused(found, robot.files, quiet=arguments.quiet)
-        print_repairs(robot, quiet=arguments.quiet)
+        robot = load_with_notes(found, arguments)
     source = arguments.joint_limits or find_joint_limits(robot, path.joints)
     if source is not None and arguments.joint_limits is None and not arguments.quiet:
         print(f"urdfkit: limits from {source}", file=sys.stderr)

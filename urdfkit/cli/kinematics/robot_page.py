@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Mapping
 from typing import Any
 
-from urdfkit.app.page import Page, note, until_interrupted
-from urdfkit.cli.page_options import announce, read_layout
+from urdfkit.app.page import note, until_interrupted
+from urdfkit.cli.page_options import page_of, read_layout
 from urdfkit.resources import ModelArgument
 
 
@@ -31,8 +31,7 @@ def show_page(arguments: argparse.Namespace, model: ModelArgument, messages: Map
     if arguments.view:
         layout = read_layout(arguments)
         with until_interrupted():
-            opened = announce(arguments)
-            page = Page("view", host=arguments.host, port=arguments.port, opened=opened, layout=layout)
+            page = page_of("view", arguments, layout)
             with viewing(page, model, shown, strict=arguments.strict) as session:
                 for name, values in messages.items():
                     session.server.publish_latched(name, **values)

@@ -12,10 +12,8 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.page import require_page
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
-from urdfkit.cli.parser import add_package_path
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.progress_line import ProgressLine
+from urdfkit.cli.robot_arguments.robot_loading import add_robot_options, load_with_notes, named_robot, repairs_as_json
 from urdfkit.cli.sim.option_values import seed
 from urdfkit.errors import ResourceError, UsageError
 
@@ -64,9 +62,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", type=Path, metavar="FILE", help="write a self-contained page with the pairs that needs no server"
     )
-    add_macro(parser)
-    add_strict(parser, "a second root link")
-    add_package_path(parser)
+    add_robot_options(parser)
     add_page_options(parser)
 
 
@@ -80,17 +76,14 @@ def run(arguments: argparse.Namespace) -> int:
     old = _read(arguments.update) if arguments.update is not None else None
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
-    from urdfkit.resources import find_model
 
     require_pinocchio("srdf")
     from urdfkit.kinematics.self_collision import collision_matrix
     from urdfkit.kinematics.srdf import find_groups, group_of_chain, missing_links, new_srdf, updated_srdf
 
-    found = with_macro(find_model(arguments.words, package_path=arguments.package_path), arguments)
+    found = named_robot(arguments.words, arguments)
     with loading_limit():
-        robot = load_robot(found, arguments)
-        note_unused(found, robot.files, quiet=arguments.quiet)
-        print_repairs(robot, quiet=arguments.quiet)
+        robot = load_with_notes(found, arguments)
     if old is not None and (missing := missing_links(old, robot, str(arguments.update))):
         names = ", ".join([*(f"`{name}`" for name in missing[:8]), *("…" for _ in missing[8:9])])
         _note(
@@ -102,10 +95,12 @@ def run(arguments: argparse.Namespace) -> int:
         groups = [group_of_chain(robot, *words) for words in arguments.group]
     else:
         groups, effectors = find_groups(robot)
-    progress = _show if sys.stderr.isatty() and not arguments.quiet else _silent
-    matrix = collision_matrix(robot, samples=arguments.samples, seed=arguments.seed, note=_note, progress=progress)
-    if progress is _show:
-        sys.stderr.write("\r\x1b[K")
+    with ProgressLine(quiet=arguments.quiet, period=0.1) as line:
+
+        def progress(done: int, total: int) -> None:
+            line(f"{done} of {total} pairs of links")
+
+        matrix = collision_matrix(robot, samples=arguments.samples, seed=arguments.seed, note=_note, progress=progress)
     if old is not None:
         text = updated_srdf(old, matrix, str(arguments.update))
     else:
@@ -166,16 +161,6 @@ def _values(matrix: CollisionMatrix, groups: list[PlanningGroup], effectors: lis
 
 def _note(text: str) -> None:
     print(f"urdfkit: warning: {text}", file=sys.stderr)
-
-
-def _show(done: int, total: int) -> None:
-    if done % 20 == 0:
-        sys.stderr.write(f"\r{done} of {total} pairs of links \r")
-        sys.stderr.flush()
-
-
-def _silent(*values: object) -> None:
-    return None
 
 
 def _group(text: str) -> tuple[str, str, str]:

@@ -11,11 +11,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.robot_loading import add_robot_options, load_with_notes, named_robot, repairs_as_json
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean, shortened
 
 if TYPE_CHECKING:
@@ -56,9 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="with --tree: write a drawing to a .svg, .dot or .pdf file"
     )
-    add_macro(parser)
-    add_strict(parser, "a second root link")
-    add_package_path(parser)
+    add_robot_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -81,13 +76,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     require_pinocchio("tf")
     from urdfkit.kinematics.tf import TransformTree
-    from urdfkit.resources import find_model
 
-    found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
+    found = named_robot(model, arguments)
     with loading_limit():
-        robot = load_robot(found, arguments)
-        note_unused(found, robot.files, quiet=arguments.quiet)
-        print_repairs(robot, quiet=arguments.quiet)
+        robot = load_with_notes(found, arguments)
         tree = TransformTree(robot)
     tree.kinematics.followed(positions)  # refuses unknown names
     warn_of_limits(robot, positions)

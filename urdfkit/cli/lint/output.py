@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 import sys
-import time
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -16,29 +15,7 @@ if TYPE_CHECKING:
 _MANY = 10
 """Number of findings from which on commands that fix or hide most of them are shown."""
 
-_PERIOD = 0.5
-"""Seconds between two lines of progress."""
-
 FORMATS = ("text", "json", "sarif", "github", "junit")
-
-
-class Progress:
-    """Shows the number of linted files on a terminal, from half a second on.
-
-    Args:
-        quiet: show nothing.
-    """
-
-    def __init__(self, *, quiet: bool) -> None:
-        self._is_shown = not quiet and sys.stderr.isatty()
-        self._due = time.monotonic() + _PERIOD
-
-    def __call__(self, done: int, total: int) -> None:
-        """Show how many of the files are linted; remove the line after the last one."""
-        if self._is_shown and (time.monotonic() >= self._due or done == total):
-            text = "" if done == total else f"urdfkit: linted {done} of {total} files"
-            print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
-            self._due = time.monotonic() + _PERIOD
 
 
 def show(outcome: Outcome, form: str, paths: Sequence[str], *, statistics: bool, color: str) -> None:

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.lint.inputs import Inputs
-from urdfkit.cli.lint.output import Progress, show
+from urdfkit.cli.lint.output import show
+from urdfkit.cli.progress_line import ProgressLine
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -44,8 +45,13 @@ class Run:
         if arguments.fix or arguments.diff:
             return self._fix(entries)
         jobs = arguments.jobs or _cores()
-        cached, progress = not (arguments.no_cache or arguments.confined), Progress(quiet=arguments.quiet)
-        outcome = lint(entries, self._inputs.options, cached=cached, jobs=jobs, keep_going=True, progress=progress)
+        cached = not (arguments.no_cache or arguments.confined)
+        with ProgressLine(quiet=arguments.quiet, period=0.5) as line:
+
+            def progress(done: int, total: int) -> None:
+                line(f"urdfkit: linted {done} of {total} files")
+
+            outcome = lint(entries, self._inputs.options, cached=cached, jobs=jobs, keep_going=True, progress=progress)
         return self._report(outcome), outcome
 
     def _fix(self, entries: Sequence[Entry]) -> tuple[int, Outcome]:

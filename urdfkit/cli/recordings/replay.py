@@ -3,7 +3,7 @@
 import argparse
 from contextlib import ExitStack
 
-from urdfkit.cli.page_options import add_page_options, announce, read_layout
+from urdfkit.cli.page_options import add_page_options, page_of, read_layout
 from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 
@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Show a recording until interrupted."""
-    from urdfkit.app.page import Page, require_page, until_interrupted
+    from urdfkit.app.page import require_page, until_interrupted
 
     require_page("replay", "view", modules=("rosbags",))
     from urdfkit.app.replay.replaying import recorded_model, replaying
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
         bag = stack.enter_context(BagFile(arguments.file))
         words = arguments.model or [str(stack.enter_context(recorded_model(bag)))]
         model = find_model(words, package_path=arguments.package_path)
-        page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments), layout=layout)
+        page = page_of("sim", arguments, layout)
         session = stack.enter_context(
             replaying(page, bag, model, fixed_frame=arguments.fixed_frame, loop=arguments.loop)
         )

@@ -5,9 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from urdfkit.cli.parser import add_package_path
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.cli.robot_arguments.robot_loading import add_robot_options, load_with_notes, named_robot
 from urdfkit.description import Robot
 from urdfkit.errors import UsageError
 from urdfkit.resources import ModelArgument
@@ -23,9 +21,7 @@ def add_tip(parser: argparse.ArgumentParser) -> None:
         "at the tip of the chain",
     )
     parser.add_argument("--base", metavar="LINK", help="the link that poses are expressed in (default: the root link)")
-    add_macro(parser)
-    add_strict(parser, "a second root link")
-    add_package_path(parser)
+    add_robot_options(parser)
 
 
 def announce(message: str) -> None:
@@ -35,11 +31,9 @@ def announce(message: str) -> None:
 
 def model_of_tip(arguments: argparse.Namespace) -> ModelArgument:
     """Return the robot of the words of `add_tip`, not loaded."""
-    from urdfkit.resources import find_model
-
     plain = [word for word in arguments.words if ":=" not in word]
     xacro_words = [word for word in arguments.words if ":=" in word]
-    return with_macro(find_model([plain[0], *xacro_words], package_path=arguments.package_path), arguments)
+    return named_robot([plain[0], *xacro_words], arguments)
 
 
 def robot_and_tip(arguments: argparse.Namespace, command: str) -> tuple[Robot, str]:
@@ -58,14 +52,8 @@ def robot_and_tip(arguments: argparse.Namespace, command: str) -> tuple[Robot, s
     plain = [word for word in arguments.words if ":=" not in word]
     if not plain or len(plain) > 2:
         raise UsageError(f"{command}: expected ROBOT and TIP, got {len(plain)} words: {' '.join(plain) or 'none'}")
-    found = model_of_tip(arguments)
     with loading_limit():
-        robot = load_robot(found, arguments)
-    if found.arguments:
-        from urdfkit.cli.robot_arguments.unused_arguments import note_unused
-
-        note_unused(found, robot.files, quiet=arguments.quiet)
-    print_repairs(robot, quiet=arguments.quiet)
+        robot = load_with_notes(model_of_tip(arguments), arguments)
     if len(plain) == 1:
         ends = [link.name for link in robot.links if not robot.children_of.get(link.name)]
         some = ", ".join([*ends[:6], *("…" for _ in ends[6:7])])

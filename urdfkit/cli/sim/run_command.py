@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import require_packages
 from urdfkit.app.termination import ended_by_signals
-from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
+from urdfkit.cli.progress_line import ProgressLine
+from urdfkit.cli.robot_arguments.robot_loading import warn_of_file_names
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
@@ -151,21 +152,14 @@ def advance(simulator: Simulator, seconds: float, until: str | None, bridges: Br
         )
 
     chunk = max(1, round(CHUNK / simulator.dt)) if condition is None else 1
-    shown = time.perf_counter() if sys.stderr.isatty() else float("inf")
     cpu, own, wall = time.process_time(), time.thread_time(), time.perf_counter()
-    try:
+    with ProgressLine(period=PROGRESS) as progress:
         while not ended():
             if bridges:
                 advance_in_real_time(simulator, bridges, ended)
                 break
             simulator.step(min(chunk, total - simulator.state.step))
-            if time.perf_counter() - shown > PROGRESS:
-                shown = time.perf_counter()
-                sys.stderr.write(f"\r{simulator.t:.1f} of {seconds:g} s \r")
-                sys.stderr.flush()
-    finally:
-        if sys.stderr.isatty():
-            sys.stderr.write("\x1b[K")
+            progress(f"{simulator.t:.1f} of {seconds:g} s")
     # After a CPU timer such as that of `CostLimit`, Linux updates the time of the process only at ticks of 4 ms.
     spent = max(time.process_time() - cpu, time.thread_time() - own)
     return Effort(spent, time.perf_counter() - wall, is_paced=bool(bridges))

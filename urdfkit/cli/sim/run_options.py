@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import load_robot
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.robot_loading import add_macro, load_robot, named_robot, warn_of_unused_arguments
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.plugin_options import add_controllers, add_distro
 from urdfkit.cli.sim.renderer_option import add_renderer
@@ -198,10 +196,8 @@ def load_robot_of_run(arguments: argparse.Namespace, more: Mapping[str, str] | N
     """
     from dataclasses import replace
 
-    from urdfkit.resources import find_model
-
-    found = find_model(arguments.model, package_path=arguments.package_path)
-    named = with_macro(replace(found, arguments={**found.arguments, **(more or {})}), arguments)
+    named = named_robot(arguments.model, arguments)
+    named = replace(named, arguments={**named.arguments, **(more or {})})
     robot = load_robot(with_launch_arguments(named, arguments), arguments)
-    note_unused(named, robot.files, quiet=arguments.quiet)
+    warn_of_unused_arguments(named, robot.files, quiet=arguments.quiet)
     return robot

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import require_packages
 from urdfkit.app.termination import ended_by_signals
+from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.sim.run_options import (
     add_run_options,
     check_run_options,
@@ -141,20 +142,13 @@ def _as_json(found: Sweep) -> list[dict[str, object]]:
 @contextmanager
 def _progress() -> Iterator[Callable[[int, int], None]]:
     """Show progress and the remaining time on a terminal; yield a function that gets finished and all runs."""
-    is_terminal, start, shown, first = sys.stderr.isatty(), time.monotonic(), 0.0, 0
+    start, first = time.monotonic(), 0
+    with ProgressLine(period=PERIOD) as line:
 
-    def show(finished: int, total: int) -> None:
-        nonlocal shown, first
-        now = time.monotonic()
-        first = first or finished - 1
-        if is_terminal and now - shown > PERIOD:
-            shown = now
-            left = (total - finished) * (now - start) / (finished - first)
-            sys.stderr.write(f"\r{finished} of {total} runs, {left:.0f} s left \x1b[K")
-            sys.stderr.flush()
+        def show(finished: int, total: int) -> None:
+            nonlocal first
+            first = first or finished - 1
+            left = (total - finished) * (time.monotonic() - start) / (finished - first)
+            line(f"{finished} of {total} runs, {left:.0f} s left")
 
-    try:
         yield show
-    finally:
-        if is_terminal:
-            sys.stderr.write("\r\x1b[K")

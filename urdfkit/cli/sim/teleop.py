@@ -3,14 +3,17 @@
 import argparse
 from contextlib import ExitStack
 
-from urdfkit.app.page import Page, note, require_page, until_interrupted
-from urdfkit.cli.page_options import add_page_options, announce, opens_browser, read_layout
+from urdfkit.app.page import note, require_page, until_interrupted
+from urdfkit.cli.page_options import add_page_options, opens_browser, page_of, read_layout
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import load_robot
-from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.robot_loading import (
+    add_macro,
+    load_robot,
+    named_robot,
+    warn_of_file_names,
+    warn_of_unused_arguments,
+)
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.plugin_options import add_controllers, add_distro
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
@@ -64,7 +67,6 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.app.simulation.simulation_handle import driving
     from urdfkit.description.sdf import load_world
     from urdfkit.description.xml.cost_limit import loading_limit
-    from urdfkit.resources import find_model
 
     check_record(arguments)
     bridges = bridge_options(arguments)
@@ -73,19 +75,12 @@ def run(arguments: argparse.Namespace) -> int:
     from_terminal = check_terminal(arguments, browser=opens_browser(arguments))
     with until_interrupted():
         with loading_limit():
-            named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+            named = named_robot(arguments.model, arguments)
             model = with_launch_arguments(named, arguments)
             robot = load_robot(model, arguments)
-            note_unused(named, robot.files, quiet=arguments.quiet)
+            warn_of_unused_arguments(named, robot.files, quiet=arguments.quiet)
             world = load_world(arguments.world)
-        page = Page(
-            "sim",
-            host=arguments.host,
-            port=arguments.port,
-            opened=announce(arguments),
-            watchers_may=arguments.watchers_may,
-            layout=layout,
-        )
+        page = page_of("sim", arguments, layout, arguments.watchers_may)
         warnings = GroupedWarnings(quiet=arguments.quiet)
         with ExitStack() as stack:
             with warnings:

@@ -14,6 +14,7 @@ import numpy as np
 
 from urdfkit.atomic import write_bytes
 from urdfkit.cli.kinematics.ik.printing import solution_as_json
+from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import announce
@@ -90,25 +91,22 @@ def _solved(
 ) -> list[Solution]:
     """Solve poses block by block, with progress on a terminal."""
     solutions: list[Solution] = []
-    shows_progress = len(poses) > BLOCK and not arguments.quiet and sys.stderr.isatty()
-    for first in range(0, len(poses), BLOCK):
-        found = chain.solve(
-            poses[first : first + BLOCK],
-            start,
-            position_only=options.position_only,
-            tolerance=(options.distance, options.angle),
-            prefer=options.prefer,
-            restarts=options.restarts,
-            seed=options.seed,
-            threads=arguments.threads,
-            collision_free=arguments.collision_free,
-            further=options.further,
-        )
-        solutions += found.listed()
-        if shows_progress:
-            print(f"\r{len(solutions)} of {len(poses)} poses", end="", file=sys.stderr, flush=True)
-    if shows_progress:
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with ProgressLine(quiet=arguments.quiet or len(poses) <= BLOCK) as progress:
+        for first in range(0, len(poses), BLOCK):
+            found = chain.solve(
+                poses[first : first + BLOCK],
+                start,
+                position_only=options.position_only,
+                tolerance=(options.distance, options.angle),
+                prefer=options.prefer,
+                restarts=options.restarts,
+                seed=options.seed,
+                threads=arguments.threads,
+                collision_free=arguments.collision_free,
+                further=options.further,
+            )
+            solutions += found.listed()
+            progress(f"{len(solutions)} of {len(poses)} poses")
     return solutions
 
 
