@@ -11,7 +11,9 @@ from abc import abstractmethod
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.periodic import Periodic, Publisher
+from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.periodic_steps import NEVER, PeriodicSteps
 
 if TYPE_CHECKING:
@@ -26,7 +28,48 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 
-class Commanding(Periodic):
+class SimulatedPlugin(Periodic):
+    """Object that simulates one plugin element of a description.
+
+    Args:
+        plugin: the element.
+        spec: the table of its parameters.
+    """
+
+    kind: ClassVar[str]
+    specs: ClassVar[tuple[PluginSpec, ...]] = ()
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
+        self.plugin = plugin
+        self.spec = spec
+
+    @abstractmethod
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter is wrong, with its position.
+        """
+
+    def parameters(self, setup: Setup, **names: str) -> Parameters:
+        """Return the parameters of the element.
+
+        Args:
+            setup: what the plugin may use.
+            names: further values of the placeholders in defaults.
+        """
+        return Parameters(self.plugin, self.spec, setup.names | names)
+
+    def topic_names(self, namespace: str = "") -> Topics:
+        """Return the topic names of the element.
+
+        Args:
+            namespace: namespace in ROS 1 without ``<robotNamespace>``.
+        """
+        return Topics(self.plugin, self.spec, namespace=namespace)
+
+
+class Commanding(SimulatedPlugin):
     """A plugin that writes joint commands; its work before a step is `write`."""
 
     motors: Motors
@@ -75,24 +118,10 @@ class Drive(Commanding):
         {}
     """
 
-    kind: ClassVar[str]
-    specs: ClassVar[tuple[PluginSpec, ...]] = ()
     write_rate: float = 0.0
     read_rate: float = 0.0
     resting: bool = False
     commands: tuple[str, ...] = ()
-
-    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
-        self.plugin = plugin
-        self.spec = spec
-
-    @abstractmethod
-    def configure(self, setup: Setup) -> None:
-        """Read the parameters, advertise and subscribe.
-
-        Raises:
-            SimulationError: a parameter is wrong, with its position.
-        """
 
     def schedule(self, dt: float, motors: Motors) -> None:
         """Set the simulation's step [s] and the motors of the robot, after `configure`."""
@@ -143,7 +172,7 @@ class DriveReads(Publisher):
             topic.count += count - 1
 
 
-class Sensor(Publisher):
+class Sensor(SimulatedPlugin, Publisher):
     """Measures the state of the robot or the scene, and publishes messages.
 
     Attributes:
@@ -167,21 +196,7 @@ class Sensor(Publisher):
         ...         self.topics[0].publish(from_fields("std_msgs/msg/Float64", [state.velocity(self.joint)]))
     """
 
-    kind: ClassVar[str]
-    specs: ClassVar[tuple[PluginSpec, ...]] = ()
     name: str = ""
-
-    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
-        self.plugin = plugin
-        self.spec = spec
-
-    @abstractmethod
-    def configure(self, setup: Setup) -> None:
-        """Read the parameters and advertise.
-
-        Raises:
-            SimulationError: a parameter is wrong, with its position.
-        """
 
 
 class Controller(Commanding):
@@ -214,14 +229,11 @@ class Controller(Commanding):
         20
     """
 
-    kind: ClassVar[str]
-    specs: ClassVar[tuple[PluginSpec, ...]] = ()
     rate: float = 0.0
     loop: ControlLoop | None = None
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
-        self.plugin = plugin
-        self.spec = spec
+        super().__init__(plugin, spec)
         self.initial_positions: dict[str, float] = {}
 
     def schedule(self, dt: float, motors: Motors) -> None:
@@ -260,11 +272,3 @@ class Controller(Commanding):
 
     def begin(self, state: State) -> None:
         """Start from the initial state."""
-
-    @abstractmethod
-    def configure(self, setup: Setup) -> None:
-        """Read the parameters, advertise and subscribe.
-
-        Raises:
-            SimulationError: a parameter is wrong, with its position.
-        """

@@ -61,7 +61,7 @@ class Ros2Control(ControlLoopPlugin):
         Raises:
             UrdfkitError: a file is missing, or a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
+        read = self.parameters(setup)
         topics = Topics(self.plugin, GAZEBO_ROS2_CONTROL)
         namespace = topics.resolve("").rstrip("/")
         root = self._parameters(setup, read)

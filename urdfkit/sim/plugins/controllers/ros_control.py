@@ -18,7 +18,6 @@ from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
 from urdfkit.sim.plugins.controllers.joint_limits import read_limits
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.pid import read_gains
 
 
@@ -34,8 +33,8 @@ class GazeboRosControl(ControlLoopPlugin):
             UrdfkitError: a transmission or a parameter of a controller is invalid, and robots that need a repair are
                 refused; with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec, namespace=setup.model)
+        read = self.parameters(setup)
+        topics = self.topic_names(setup.model)
         robot = setup.kinematics.robot
         namespace = topics.resolve("").rstrip("/")
         found = find_configuration(robot, namespace, setup.parameter_files)

@@ -21,7 +21,6 @@ from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_geometry import steering_angles, wheel_centre, wheel_radius
 from urdfkit.sim.state.joint_commands import Motors, effort_limit
 from urdfkit.sim.state.periodic_steps import PeriodicSteps
@@ -56,8 +55,8 @@ class Ackermann(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec)
+        read = self.parameters(setup)
+        topics = self.topic_names()
         self._setup = setup
         self._read_geometry(setup, read)
         self._read_gains(setup, read)

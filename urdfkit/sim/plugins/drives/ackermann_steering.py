@@ -45,8 +45,8 @@ class AckermannSteering(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec)
+        read = self.parameters(setup)
+        topics = self.topic_names()
         self._setup = setup
         self._only_steers = read.flag("steering_only")
         if read.flag("use_actuator_message"):

@@ -48,7 +48,7 @@ class DiffDrive(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
+        read = self.parameters(setup)
         topics = self._topic_names(setup)
         self._setup = setup
         self._read_wheels(setup, read)
@@ -68,7 +68,7 @@ class DiffDrive(VelocityDrive):
         self._advertise(setup, read, topics)
 
     def _topic_names(self, setup: Setup) -> Topics:
-        return Topics(self.plugin, self.spec, namespace=setup.model)
+        return self.topic_names(setup.model)
 
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
         """Read the joints, the separation and the radius of each pair."""

@@ -5,10 +5,8 @@ Source: gz-sim main, src/systems/mecanum_drive/MecanumDrive.cc.
 
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive, joints_of
-from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.speed_limits import SpeedLimits, limiter
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import MecanumOdometry
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.robot_state import State
@@ -33,8 +31,8 @@ class MecanumDrive(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec)
+        read = self.parameters(setup)
+        topics = self.topic_names()
         self._setup = setup
         self._joints = {corner: joints_of(setup, read, corner) for corner in CORNERS}
         separation = read.number("wheel_separation")

@@ -7,9 +7,7 @@ steps; urdfkit publishes the velocity of the present state.
 from urdfkit.bus import Topic
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world
-from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.quaternion import from_rpy, product, rotate
 from urdfkit.sim.state.robot_state import State
@@ -27,8 +25,8 @@ class OdometryPublisher(Drive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec)
+        read = self.parameters(setup)
+        topics = self.topic_names()
         self.read_rate = read.number("odometry_rate")
         self._flat = read.choice("dimensions") == "2"
         x, y, z = read.vector("xyz_offset", 3)

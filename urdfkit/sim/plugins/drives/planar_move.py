@@ -13,7 +13,6 @@ from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.odometry import Estimate
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.quaternion import rotate, yaw_of
 from urdfkit.sim.state.robot_state import State
@@ -38,8 +37,8 @@ class PlanarMove(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec)
+        read = self.parameters(setup)
+        topics = self.topic_names()
         self._movable = movable(setup, read)
         self.subscribe(setup, topics.resolve(read.text("command_topic", "cmd_vel")))
         self.write_rate = 0.0 if self._ros1 else read.number("update_rate")

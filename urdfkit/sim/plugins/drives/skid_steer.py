@@ -22,7 +22,7 @@ class SkidSteer(DiffDrive):
 
     def _topic_names(self, setup: Setup) -> Topics:
         # Unlike the differential drive, its default namespace is empty.
-        return Topics(self.plugin, self.spec)
+        return self.topic_names()
 
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
         def joint(meaning: str) -> str:

@@ -11,9 +11,7 @@ from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_
 from urdfkit.sim.plugins.drives.set_joint_position import put
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
-from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.periodic_steps import PeriodicSteps
@@ -34,8 +32,8 @@ class Tricycle(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec, namespace=setup.model)
+        read = self.parameters(setup)
+        topics = self.topic_names(setup.model)
         self._setup = setup
         self._steering, self._actuated, self._left, self._right = (
             setup.joint(read.text(meaning), read.place(meaning))

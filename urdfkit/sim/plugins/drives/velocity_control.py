@@ -4,13 +4,9 @@ Source: gz-sim main, src/systems/velocity_control/VelocityControl.cc. It publish
 """
 
 from urdfkit.bus import Topic
-from urdfkit.description.plugins import PluginSpec
-from urdfkit.description.urdf.robot import Plugin
 from urdfkit.sim.plugins.drives.planar_move import movable
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
-from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.robot_state import State
 
@@ -22,10 +18,7 @@ class VelocityControl(VelocityDrive):
     """
 
     kind = "velocity_control"
-
-    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
-        super().__init__(plugin, spec)
-        self.read_rate = 1.0  # nothing to publish
+    read_rate = 1.0  # nothing to publish
 
     def configure(self, setup: Setup) -> None:
         """Read the parameters and subscribe.
@@ -33,7 +26,7 @@ class VelocityControl(VelocityDrive):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
+        read = self.parameters(setup)
         if read.texts("link"):
             setup.note(
                 f"{read.place('link')}: velocities of single links are not simulated, only the velocity of the model"
@@ -41,7 +34,7 @@ class VelocityControl(VelocityDrive):
         self._ignored = 0  # commands before the last reset
         self._initial = (read.vector("initial_linear", 3), read.vector("initial_angular", 3))
         self._movable = movable(setup, read)
-        self.subscribe(setup, Topics(self.plugin, self.spec).resolve(read.text("command_topic")))
+        self.subscribe(setup, self.topic_names().resolve(read.text("command_topic")))
         self.resting = not self._movable
 
     def wake(self) -> None:

@@ -65,7 +65,7 @@ class LinkSensor(Sensor):
         if surroundings is None:
             raise SimulationError("nothing is around", position=self.plugin.element.origin.position)
         self.name = (sensor.name if sensor is not None else self.plugin.name) or "sensor"
-        read = Parameters(self.plugin, self.spec, {**setup.names, "link": setup.link, "sensor": self.name})
+        read = self.parameters(setup, link=setup.link, sensor=self.name)
         if sensor is not None:
             self.link = carrier(setup)
             self._mount = pose_of(sensor.element)
@@ -84,7 +84,7 @@ class LinkSensor(Sensor):
         self._key = int(setup.random.integers(1 << 62))
         self._before: KinematicSnapshot | None = None
         element = None if sensor is None else sensor.element
-        topics = Topics(self.plugin, self.spec, namespace=self._namespace(setup))
+        topics = self.topic_names(self._namespace(setup))
         self._prepare(setup, element, read, topics, surroundings)
 
     def _namespace(self, setup: Setup) -> str:

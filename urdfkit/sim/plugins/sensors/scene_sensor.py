@@ -52,7 +52,7 @@ class SceneSensor(Sensor):
         read = Parameters(self.plugin, self.spec, names)
         refuse(senseless_parameters(self.plugin, self.spec))
         empty = self.plugin.element.find("robotNamespace") is not None
-        topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
+        topics = self.topic_names(self.namespace.format(**names) if empty else "")
         self.rate = rate_of(sensor.element, read)
         frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
         self.frame = frame.lstrip("/")

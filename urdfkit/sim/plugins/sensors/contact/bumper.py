@@ -26,7 +26,6 @@ from urdfkit.sim.plugins.sensors.contact.watched_contacts import Point, Seen, To
 from urdfkit.sim.plugins.sensors.motion_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import rate_of
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
@@ -51,7 +50,7 @@ class Contacts(Sensor):
             )
         link = carrier(setup)
         self.name = sensor.name or "sensor"
-        read = Parameters(self.plugin, self.spec, {**setup.names, "link": link, "sensor": self.name})
+        read = self.parameters(setup, link=link, sensor=self.name)
         self.frame = read.text("frame").lstrip("/")
         self.rate = rate_of(sensor.element, read)
         self._surroundings = setup.surroundings
@@ -89,7 +88,7 @@ class Bumper(Contacts):
     kind = "bumper"
 
     def _advertise(self, setup: Setup, element: Element, read: Parameters) -> None:
-        topics = Topics(self.plugin, self.spec)
+        topics = self.topic_names()
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic") or "bumper_states"), CONTACTS_STATE),)
 
     def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
@@ -111,7 +110,7 @@ class GzContact(Contacts):
         contact = element.find("contact")
         written = None if contact is None else contact.find("topic")
         name = (written.text if written is not None else "") or read.text("topic")
-        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), GZ_CONTACTS),)
+        self.topics = (setup.bus.advertise(self.topic_names().resolve(name), GZ_CONTACTS),)
 
     def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
         if touches := self._watch.touches(seen, layout):
@@ -178,7 +177,7 @@ class GzTouch(Sensor):
         Raises:
             SimulationError: a parameter is missing, or the model has no contact sensor, with the position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
+        read = self.parameters(setup)
         for meaning in ("target", "namespace", "time"):
             if not read.text(meaning):
                 raise SimulationError(

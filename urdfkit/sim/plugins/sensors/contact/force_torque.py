@@ -18,13 +18,11 @@ from urdfkit.linear_algebra import Array, matmul
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.engine import Contact
 from urdfkit.sim.plugins.base import Sensor
-from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.contact.joint_load import Wrench, below, lumps_of, momentum, weight
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.robot_state import State
 
 WRENCH = "geometry_msgs/msg/WrenchStamped"
@@ -174,7 +172,7 @@ class JointForceTorque(ForceTorque):
     kind = "force_torque"
 
     def _prepare(self, setup: Setup) -> None:
-        read = Parameters(self.plugin, self.spec, setup.names)
+        read = self.parameters(setup)
         place = self.plugin.element.origin.position
         if self.plugin.element.find("body_name") is not None and self.spec.generation == "ros2":
             raise SimulationError(
@@ -189,7 +187,7 @@ class JointForceTorque(ForceTorque):
         self.rate = rate_of(None, read)
         self.frame = self._child
         self._noises = (Noise(deviation=read.number("gaussian_noise")),) * 6
-        name = Topics(self.plugin, self.spec).resolve(read.text("topic") or "wrench")
+        name = self.topic_names().resolve(read.text("topic") or "wrench")
         self.topics = (setup.bus.advertise(name, WRENCH),)
 
     def _axes(self, now: KinematicSnapshot) -> Array:
@@ -212,7 +210,7 @@ class GzForceTorque(ForceTorque):
             )
         self._read_joint(setup, setup.link, place)
         self._mount = pose_of(sensor.element)
-        read = Parameters(self.plugin, self.spec, {**setup.names, "joint": setup.link, "sensor": self.name})
+        read = self.parameters(setup, joint=setup.link, sensor=self.name)
         self.rate = rate_of(sensor.element, read)
         inside = sensor.element.find("force_torque")
         self._axes_of = self._choice(inside, "frame", FRAMES, "child")
@@ -224,7 +222,7 @@ class GzForceTorque(ForceTorque):
             noise_of(None if kind is None else kind.find(axis), setup.random) for kind in kinds for axis in "xyz"
         )
         self.frame = (read.text("frame") or read.text("old_frame") or read.text("default_frame")).lstrip("/")
-        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(read.text("topic")), WRENCH),)
+        self.topics = (setup.bus.advertise(self.topic_names().resolve(read.text("topic")), WRENCH),)
 
     @staticmethod
     def _choice(inside: Element | None, tag: str, allowed: tuple[str, ...], default: str) -> str:

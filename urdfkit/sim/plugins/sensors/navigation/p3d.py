@@ -12,10 +12,8 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import ODOMETRY, header, message_type, twist
 from urdfkit.sim.plugins.base import Sensor
-from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, PointMotion
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import from_matrix, from_rpy, product
 from urdfkit.sim.state.robot_state import State
 
@@ -34,7 +32,7 @@ class P3d(Sensor):
         Raises:
             SimulationError: a parameter is invalid, with its position.
         """
-        read = Parameters(self.plugin, self.spec, setup.names)
+        read = self.parameters(setup)
         links = setup.kinematics.link_names
         self._link = read.text("body")
         if self._link not in links:
@@ -60,7 +58,7 @@ class P3d(Sensor):
         self._noise = read.number("gaussian_noise")
         self._key = int(setup.random.integers(1 << 62))
         self._kinematics = setup.kinematics
-        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), ODOMETRY),)
+        self.topics = (setup.bus.advertise(self.topic_names().resolve(name), ODOMETRY),)
 
     def measure(self, state: State, count: int) -> None:
         """Publish the measurement of this state."""
