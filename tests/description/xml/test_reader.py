@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.description.xacro.evaluation.tree import element_of
+from urdfkit.description.xacro.evaluation.element_conversion import element_of
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.expand import expand, expand_leniently
 from urdfkit.description.xml.element import MAX_DEPTH, Element

@@ -10,7 +10,8 @@ import xacro
 
 from tests.description.xacro.evaluation.stock import by_stock_xacro
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xacro.evaluation.evaluator import Evaluator, is_identifier
+from urdfkit.description.xacro.evaluation.directives import is_identifier
+from urdfkit.description.xacro.evaluation.evaluator import Evaluator
 from urdfkit.description.xacro.evaluation.parameters import MacroParameter, parameters
 
 Write = Callable[[str, str], Path]

@@ -12,18 +12,12 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from urdfkit.description.xacro.evaluation.expressions.limits import MAX_MACRO_DEPTH, MAX_PROPERTY_DEPTH
-from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace, Scope
-from urdfkit.description.xacro.evaluation.failures import (
-    Failure,
-    cycle,
-    error_of,
-    recursive_block,
-    short,
-    undefined_block,
-)
-from urdfkit.description.xacro.evaluation.reuse import Reuse
-from urdfkit.description.xacro.evaluation.tree import COMMENT, MORE, TEXT, Node, Tag, element_of
+from urdfkit.description.xacro.evaluation.directives import Directives
+from urdfkit.description.xacro.evaluation.element_conversion import element_of
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_PROPERTY_DEPTH
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
+from urdfkit.description.xacro.evaluation.failures import Failure, error_of
+from urdfkit.description.xacro.evaluation.tree import COMMENT, MORE, TEXT, Node, Tag
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.memory import Memory, Root
 from urdfkit.errors import XmlError
@@ -35,10 +29,9 @@ if TYPE_CHECKING:
     Steps = Iterator["Steps"]
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Position
 
 
-class Evaluator(Reuse):
+class Evaluator(Directives):
     """One expansion of one file.
 
     Args:
@@ -49,8 +42,6 @@ class Evaluator(Reuse):
         memory: what earlier expansions of the file read.
 
     Attributes:
-        properties: where each property was defined (the last definition).
-        open_blocks: the blocks that are being inserted, outermost first.
         top_scope: the properties of the file.
         top_macros: its macros.
     """
@@ -68,8 +59,8 @@ class Evaluator(Reuse):
         self._memory = memory
         self._separator = Node(TEXT, "\n\n")
         self.macros, self._stack = {}, []
-        self.properties: dict[str, Position] = {}
-        self.open_blocks: list[str] = []
+        self.properties = {}
+        self.open_blocks = []
         self.top_scope, self.top_macros = Scope(self.globals, self), Scope({})
         self._directives: dict[str, Callable[[Tag, Scope, Scope], Steps | None]] = {
             "xacro:insert_block": self._insert_block,
@@ -214,153 +205,6 @@ class Evaluator(Reuse):
         """Return whether to continue after an element that cannot be expanded."""
         return False
 
-    # Directives
-
-    def _insert_block(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
-        (name,) = self._checked(node, ("name",), ())
-        if f"**{name}" in scope:
-            block, content_only = scope[f"**{name}"], True
-        elif f"*{name}" in scope:
-            block, content_only = scope[f"*{name}"], False
-        else:
-            candidates = dict.fromkeys(key.lstrip("*") for key in scope.names() if key.startswith("*"))
-            raise self.placed(undefined_block(str(name), candidates))
-        if len(self.open_blocks) >= MAX_MACRO_DEPTH:
-            raise self.placed(recursive_block(cycle(self.open_blocks)))
-        block = block.copy(None, self.count)
-        self.open_blocks.append(str(name))
-        try:
-            yield self._element(block, macros, scope)
-        finally:
-            self.open_blocks.pop()
-        if content_only:
-            node.replace([block])
-        else:
-            block.insert_before(node)
-            node.remove()
-
-    def _include(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
-        specification, space, optional = self._checked(node, ("filename",), ("ns", "optional"))
-        inner_macros, inner_scope = macros, scope
-        if space:
-            self.at = (node, "ns")
-            space = self.text(space, scope)
-            inner_macros, inner_scope = Namespace({}), Namespace(scope)
-            macros.set(space, inner_macros, is_lazy=False)
-            scope.set(space, inner_scope, is_lazy=False)
-        self.at = (node, None)
-        is_optional = self._boolean(optional, optional)
-        if next(node.tags(), None) is not None:
-            self.warn("Child elements of a <xacro:include> tag are ignored")
-        included: list[Tag] = []
-        for file in self.included_files(node, specification, scope):
-            depth = len(self.file_stack)
-            try:
-                self.at = (node, None)
-                root = self.open_included(file)
-                yield self._element(root, inner_macros, inner_scope)
-                self.at = (node, None)
-                self._import_namespaces(node.parent, root)
-                included.append(root)
-            except Failure as failure:
-                if not (is_optional is True and failure.is_missing_file):
-                    raise
-            finally:
-                del self.file_stack[depth:]
-        self._remove_comments_before(node)
-        node.replace(included)
-
-    def _property(self, node: Tag, macros: Scope, scope: Scope) -> None:
-        self._remove_comments_before(node)
-        optional = ("value", "default", "remove", "scope", "lazy_eval")
-        name, value, default, remove, reach, lazy = self._checked(node, ("name",), optional)
-        self.at = (node, "name")
-        name = self.text(name, scope)
-        self.at = (node, None)
-        if not is_identifier(name):
-            raise self.placed(Failure("other", f"Property names must be valid python identifiers: {short(str(name))}"))
-        if name.startswith("__"):
-            raise self.placed(Failure("other", f"Property names must not start with double underscore:{name}"))
-        self.properties[name] = node.position
-        self.at = (node, "remove")
-        removes = self._boolean(self.text(remove or "false", scope), remove)
-        self.at = (node, None)
-        if (value is not None) + (default is not None) + removes > 1:
-            message = f"Property attributes default, value, and remove are mutually exclusive: {name}"
-            raise self.placed(Failure("other", message))
-        if removes and name in scope:
-            scope.remove(name)
-            if name in scope:
-                self.warn(f"Cannot remove global symbol: {name}")
-            node.remove()
-            return
-        if default is not None:
-            if reach is not None:
-                self.warn(f"{name}: default property value can only be defined on local scope")
-            if name in scope:
-                node.remove()
-                return
-            value = default
-        stored: Any = value
-        if value is None:
-            name, stored = f"**{name}", node
-        node.remove()
-        self.at = (node, "lazy_eval")
-        is_lazy = self._boolean(self.text(lazy or "true", scope), lazy)
-        target: Any = scope
-        if reach == "global":
-            self.untraced += 1
-            target, is_lazy = scope.top(), False
-        elif reach == "parent":
-            target, is_lazy = scope.outer, False
-            if not isinstance(scope, Namespace):
-                while isinstance(target, Namespace):
-                    target = target.parent
-        self.at = (node, "default" if default is not None else "value")
-        if not is_lazy and isinstance(stored, str):
-            stored = self.text(stored, scope)
-        if not isinstance(target, Scope):
-            self.at = (node, None)
-            raise self.placed(Failure("other", f"{name}: no parent scope at global scope"))
-        target.set(name, stored, is_lazy=is_lazy)
-
-    def _argument(self, node: Tag, macros: Scope, scope: Scope) -> None:
-        self.untraced += 1
-        name, default = self._checked(node, ("name", "default"), ())
-        if name not in self.commands.arguments:
-            self.at = (node, "default")
-            value = self.text(default, scope)
-            self.commands.arguments[name] = value if isinstance(value, str) else str(value)
-        self._remove_comments_before(node)
-        node.remove()
-
-    def _attribute(self, node: Tag, macros: Scope, scope: Scope) -> None:
-        self._required(node, "name")
-        self._required(node, "value")
-        self.at = (node, "name")
-        name = self.text(node.attributes["name"], scope)
-        self.at = (node, "value")
-        value = self.text(node.attributes["value"], scope)
-        self.at = (node, None)
-        if not name or not isinstance(name, str):
-            raise self.placed(
-                Failure("other", "xacro:attribute: empty name" if not name else "the name is not a string")
-            )
-        if node.parent is not None:
-            node.parent.attributes[name] = value
-        node.remove()
-
-    def _condition(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
-        self._remove_comments_before(node)
-        (condition,) = self._checked(node, ("value",), ())
-        self.at = (node, "value")
-        keep = self._boolean(self.text(condition, scope), condition)
-        if keep == (node.tag == "xacro:if"):
-            yield self._element(node, macros, scope)
-            node.replace([node])
-        else:
-            node.remove()
-
 
 class deep_calls:  # noqa: N801 - used like a function; `contextlib` takes 0.5 ms to load
     """Let properties use each other as deep as `MAX_PROPERTY_DEPTH` allows; each takes about ten calls of Python."""
@@ -371,16 +215,3 @@ class deep_calls:  # noqa: N801 - used like a function; `contextlib` takes 0.5 m
 
     def __exit__(self, *_: object) -> None:
         sys.setrecursionlimit(self._limit)
-
-
-def is_identifier(name: Any) -> bool:
-    """Whether a property can have a name."""
-    import keyword
-
-    if not isinstance(name, str) or not name.isidentifier() or keyword.iskeyword(name):
-        return False
-    if name.isascii():
-        return True
-    import unicodedata
-
-    return unicodedata.normalize("NFKC", name) == name

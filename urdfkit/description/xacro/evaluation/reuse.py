@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.description.xacro.evaluation.element_conversion import element_of
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_EXPANDED, MAX_EXPRESSIONS, MAX_MACRO_CALLS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure
 from urdfkit.description.xacro.evaluation.macros import Calls, Macro
-from urdfkit.description.xacro.evaluation.tree import CDATA, TEXT, ExpandedElements, Tag, element_of
+from urdfkit.description.xacro.evaluation.tree import CDATA, TEXT, ExpandedElements, Tag
 from urdfkit.description.xacro.memory import Child, Memory, Record, Root, adopted
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import MAX_MADE_DEPTH

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from urdfkit.description.xacro.evaluation.element_conversion import element_of
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator, deep_calls
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, MAX_EXPRESSIONS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
 from urdfkit.description.xacro.evaluation.macros import Macro, found_macro
 from urdfkit.description.xacro.evaluation.texts import EXPRESSION
-from urdfkit.description.xacro.evaluation.tree import Tag, element_of
+from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault, Unprefixed
