@@ -45,6 +45,8 @@ class _Structure:
         self.links, self.joints = list(robot.links), list(robot.joints)
         self._detached: dict[str, int] = {}
         """Link without a parent because of a defect that has been reported → index of the defect."""
+        self._added: dict[int, str] = {}
+        """Index of a defect → the empty link that is added for it."""
         self._left_out = {defect.element: i for i, defect in enumerate(defects) if defect.effect == LEFT_OUT}
         """Element without which a joint is ignored → index of its defect."""
         self._childless: int | None = None
@@ -119,6 +121,7 @@ class _Structure:
                     elif name not in undefined:
                         undefined[name] = element
                         self._detached[name] = at
+                        self._added[at] = name
                     if end == "child" and name in meant:
                         self._detached.setdefault(meant[name], at)
             if not joint.parent or not joint.child:
@@ -199,9 +202,8 @@ class _Structure:
                 if link.name in self._detached:
                     fixed.setdefault(self._detached[link.name], []).append(link.name)
         for at, links in fixed.items():
-            effect = self.defects[at].effect
-            is_same = effect.endswith(f" link `{links[0]}` is added") and len(links) == 1
-            effect += ", fixed" if is_same else f"; {_fixed_words(links)}"
+            words = ", fixed" if links == [self._added.get(at)] else f"; {_fixed_words(links)}"
+            effect = f"{self.defects[at].effect}{words}"
             self.defects[at] = replace(self.defects[at], effect=f"{effect} to the origin of `{main.name}`")
 
     def _report_roots(self, others: list[Link], main: Link) -> None:

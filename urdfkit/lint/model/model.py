@@ -106,29 +106,11 @@ class Model:
     @cached_property
     def encoding_faults(self) -> tuple[Fault, ...]:
         """One fault for each otherwise well-formed file that is not UTF-8."""
-        broken = {fault.position.file for fault in self.expanded.faults if fault.kind == "xml"}
-        sources = [one for one in self.expanded.sources.values() if one.flaw is not None and one.file not in broken]
-        if not sources:
+        if all(source.flaw is None for source in self.expanded.sources.values()):
             return ()
-        from urdfkit.description.xacro.faults import Fault
+        from urdfkit.description.encoding_defects import encoding_faults
 
-        is_xacro = self.expanded.path.suffix == ".xacro" or any(
-            "xmlns:xacro" in source.text for source in self.expanded.sources.values()
-        )
-        found = []
-        for source in sources:
-            at, what = source.flaw or (0, "")
-            message, rejects = (
-                f"{what} is not UTF-8",
-                "xacro rejects" if is_xacro else "programs that read it as text reject",
-            )
-            is_wide = what.startswith("UTF-")
-            if is_wide:
-                message, rejects = f"the file is in {what}", "xacro rejects" if is_xacro else "urdfdom rejects"
-            fatal = is_xacro or is_wide
-            facts = {"severity": "error" if fatal else "warning"}
-            found.append(Fault("encoding", f"{message}: {rejects} the file", source.position(at), details=facts))
-        return tuple(found)
+        return encoding_faults(self.expanded)
 
     @cached_property
     def faults_by_call(self) -> dict[tuple[str, Position, tuple[Expansion, ...]], list[Fault]]:
