@@ -3,6 +3,8 @@
 Definitions that rosbags lacks are in the other modules, one per family of ROS packages.
 """
 
+from urdfkit.messages.constructors import header, stamp, transform, twist, vector
+from urdfkit.messages.field_values import from_fields
 from urdfkit.messages.point_cloud import read_points
 from urdfkit.messages.types import (
     BOOL,
@@ -17,19 +19,13 @@ from urdfkit.messages.types import (
     TRAJECTORY_STATE,
     TWIST,
     TWIST_STAMPED,
-    from_fields,
     full_type_name,
-    header,
     message_type,
     register_in,
     register_layouts,
     register_types,
     require_message_types,
-    stamp,
-    transform,
-    twist,
     typestore,
-    vector,
 )
 
 __all__ = [
