@@ -42,7 +42,7 @@ def controllers(source: Source) -> list[str]:
 def joints(source: Source) -> Iterator[Named]:
     """Yield the joints named in a YAML file that configures controllers or gazebo_ros_control; else nothing."""
     if controllers(source) or _GAINS in source.text:
-        for root in documents(source)[0]:
+        for root in documents(source):
             yield from _named(source, root)
 
 

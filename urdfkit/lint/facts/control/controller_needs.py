@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, declared
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, yamls
 from urdfkit.lint.model.model import Model
 
 _NEEDS = {
@@ -54,7 +54,7 @@ def _renamed(
         if other is not source
         for name in re.findall(r"(?m)^\s*[\"']?/?([\w-]+)[\"']?:", other.text)
     }
-    entries = (entry for root in documents(source)[0] for node in walk(root) for entry in node.entries)
+    entries = (entry for node in nodes(source) for entry in node.entries)
     sections = [
         (key, group)
         for key, value in entries

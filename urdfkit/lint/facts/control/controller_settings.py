@@ -67,7 +67,7 @@ class ControllerSettings:
 
 def settings(source: Source) -> tuple[ControllerSettings, ...]:
     """Return the settings of the controllers with a type in a YAML file; each mapping once."""
-    return _settings(documents(source)[0], declared(source) if PARAMETERS in source.text else ())
+    return _settings(documents(source), declared(source) if PARAMETERS in source.text else ())
 
 
 @lru_cache(maxsize=400)
@@ -91,7 +91,7 @@ def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
     from urdfkit.lint.fix_builders import nearest
 
     for key, group in _managers(source):
-        name = key.text.strip("/").rpartition("/")[2]
+        name = key.last_name
         if name != "controller_manager" and nearest(name, ("controller_manager",), cutoff=0.9) is not None:
             yield key, "controller_manager", f"unknown node `{name}`"
         for parameter, value in group.entries:
@@ -126,11 +126,11 @@ def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 def _managers(source: Source) -> Iterator[tuple[Node, Node]]:
     """Yield the name and the parameters of each ROS 2 node that loads controllers."""
-    for root in documents(source)[0] if PARAMETERS in source.text else ():
+    for root in documents(source) if PARAMETERS in source.text else ():
         for key, section in root.entries:
             group = section.find(PARAMETERS)
             kinds = [value.find("type") for _, value in group.entries] if group is not None else []
-            is_manager = key.text.strip("/").rpartition("/")[2] == "controller_manager"
+            is_manager = key.last_name == "controller_manager"
             if group is not None and (is_manager or any(kind is not None and "/" in kind.text for kind in kinds)):
                 yield key, group
 
@@ -169,7 +169,7 @@ def sections_without_parameters(source: Source) -> list[Node]:
 
     if "controller" not in source.text:
         return []
-    roots = documents(source)[0]
+    roots = documents(source)
     entries = [entry for root in roots for entry in root.entries]
     if PARAMETERS not in source.text:
         managers = [(key, section) for key, section in entries if key.text == "controller_manager"]

@@ -77,7 +77,7 @@ def _words(text: str, start: int) -> tuple[Named | None, ...]:
 def _in_yaml(source: Source) -> Iterator[Started]:
     from urdfkit.lint.facts.control.yaml_tree import documents, walk
 
-    for root in documents(source)[0] if "node" in source.text else ():
+    for root in documents(source) if "node" in source.text else ():
         for group in walk(root):
             node = group.find("node")
             if node is None or node.kind != "group":

@@ -53,7 +53,7 @@ def integers_for_doubles(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 def mixed_lists(source: Source) -> Iterator[tuple[Node, Node]]:
     """Yield the lists of integers and doubles in ROS 2 parameters: name, first integer."""
-    for document in documents(source)[0] if PARAMETERS in source.text else ():
+    for document in documents(source) if PARAMETERS in source.text else ():
         sections = [node.find(PARAMETERS) for node in walk(document)]
         for node in (node for section in sections if section is not None for node in walk(section)):
             for key, value in node.entries:

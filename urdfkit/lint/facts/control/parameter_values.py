@@ -195,7 +195,7 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
         is_typed_at_start: whether a launch file passes types of controllers to the spawner.
     """
     names: dict[int, list[Node]] = {}
-    for root in documents(source)[0]:
+    for root in documents(source):
         for node in walk(root):
             for key, value in node.entries:
                 inner = value.find(PARAMETERS)

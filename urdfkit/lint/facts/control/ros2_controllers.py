@@ -49,7 +49,7 @@ class Wanted:
 
 def declared(source: Source) -> tuple[DeclaredController, ...]:
     """Return the controllers with a type in the parameters of a ROS 2 controller manager in a YAML file."""
-    return _declared(documents(source)[0])
+    return _declared(documents(source))
 
 
 @lru_cache(maxsize=400)
@@ -72,7 +72,7 @@ def _parameters(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]
         if key.text == PARAMETERS:
             yield name, value
         elif depth < 4:
-            yield from _parameters(value, key.text.strip("/").rpartition("/")[2], depth + 1)
+            yield from _parameters(value, key.last_name, depth + 1)
 
 
 _GROUPS = {

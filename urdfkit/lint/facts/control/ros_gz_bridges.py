@@ -95,7 +95,7 @@ def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
         span = span_of(source, node)
         return Named(node.text, source.offset(span.line, span.column))
 
-    roots, _ = documents(source)
+    roots = documents(source)
     for entry in (item for root in roots for item in root.items):
         keys = tuple(key for key, _ in entry.entries)
         if any(key.text in ("ros_type_name", "gz_type_name", "gz_topic_name", "ign_type_name") for key in keys):
@@ -110,7 +110,7 @@ def bridged_topics(model: Model) -> Iterator[tuple[str, str, bool]]:
     from urdfkit.lint.facts.control.yaml_tree import documents, yamls
 
     for source in yamls(model):
-        for entry in (item for root in documents(source)[0] for item in root.items):
+        for entry in (item for root in documents(source) for item in root.items):
             keys = ("ros_topic_name", "topic_name", "gz_topic_name", "ign_topic_name")
             topic = next((node for key in keys if (node := entry.find(key)) is not None), None)
             kind, direction = entry.find("ros_type_name"), entry.find("direction")

@@ -42,7 +42,7 @@ class MisplacedControllers:
 
 def paths_of_controllers(source: Source) -> Iterator[tuple[Node, ...]]:
     """Yield the keys from the start of a YAML file to each controller with a type."""
-    for root in documents(source)[0]:
+    for root in documents(source):
         yield from _paths(root, ())
 
 

@@ -58,7 +58,7 @@ def untyped(model: Model) -> Iterator[tuple[Source, Node, Source]]:
         for source in files if names else ():
             if not any(declared(source)) or "<<" in source.text:
                 continue
-            for key, section in (entry for root in documents(source)[0] for entry in root.entries):
+            for key, section in (entry for root in documents(source) for entry in root.entries):
                 group = section.find(PARAMETERS)
                 is_spawned = key.text.strip("/") in {word.name for word in names}
                 if group is None or not is_spawned or key.text.strip("/") in typed or id(key) in seen:
@@ -71,7 +71,7 @@ def untyped(model: Model) -> Iterator[tuple[Source, Node, Source]]:
 def _is_mentioned(name: str, files: list[Source]) -> bool:
     """Return whether a controller manager has an entry for a controller, perhaps a misspelt or an empty one."""
     managers = [
-        root.find("controller_manager") for source in files for root in documents(source)[0] if "type" in source.text
+        root.find("controller_manager") for source in files for root in documents(source) if "type" in source.text
     ]
     groups = [each.find(PARAMETERS) for each in managers if each is not None]
     return any(group is not None and group.find(name) is not None for group in groups)

@@ -43,6 +43,16 @@ class Node:
         """Return the value of a key in a mapping; None if the key is missing."""
         return next((value for key, value in self.entries if key.text == name), None)
 
+    @property
+    def last_name(self) -> str:
+        """The last part of a name with a namespace: ``node`` of ``/robot/node``."""
+        return self.text.strip("/").rpartition("/")[2]
+
+    @property
+    def class_name(self) -> str:
+        """The name of a plugin's class without its package: ``Class`` of ``package::Class`` and ``package/Class``."""
+        return self.text.replace("/", "::").rpartition("::")[2]
+
     def texts(self) -> list[str]:
         """Return the non-empty scalars among the node and its list items."""
         return [node.text for node in (self, *self.items) if node.kind == "text" and node.text]
@@ -62,9 +72,20 @@ def yamls(model: Model) -> Iterator[Source]:
     yield from (source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml")))
 
 
-def documents(source: Source) -> tuple[tuple[Node, ...], Broken | None]:
-    """Return the documents of a YAML file up to the first syntax error, and the error or None."""
-    return documents_in(source.text)
+def documents(source: Source) -> tuple[Node, ...]:
+    """Return the documents of a YAML file, up to the first syntax error."""
+    return documents_in(source.text)[0]
+
+
+def syntax_error(source: Source) -> Broken | None:
+    """Return the first syntax error of a YAML file; None if it has none."""
+    return documents_in(source.text)[1]
+
+
+def nodes(source: Source) -> Iterator[Node]:
+    """Yield every node of every document of a YAML file that is read as a value."""
+    for document in documents(source):
+        yield from walk(document)
 
 
 def start_of(source: Source, node: Node) -> int:
@@ -120,7 +141,7 @@ def groups(node: Node, name: str = "") -> Iterator[tuple[str, Node]]:
         name, node, depth = waiting.pop()
         yield name, node
         for key, value in reversed(node.entries) if depth < 4 else ():
-            called = name if key.text == "ros__parameters" else key.text.strip("/").rpartition("/")[2]
+            called = name if key.text == "ros__parameters" else key.last_name
             waiting.append((called, value, depth + 1))
 
 

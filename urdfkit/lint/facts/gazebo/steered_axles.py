@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -124,7 +124,7 @@ def tight_turns(model: Model) -> Iterator[tuple[Source, Node, str]]:
         return
     radius = min(radii)
     for source in yamls(model):
-        for group in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
+        for group in (each for each in nodes(source) if each.kind == "group"):
             for name in ("minimum_turning_radius", "min_turning_r", "min_turning_radius"):
                 node = group.find(name)
                 value = number_of(node) if node is not None and node.kind == "text" else None

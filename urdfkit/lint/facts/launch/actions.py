@@ -155,7 +155,7 @@ def _from_tag(tag: Tag) -> LaunchAction:
 
 
 def _from_yaml(source: Source) -> Iterator[LaunchAction]:
-    for document in documents(source)[0]:
+    for document in documents(source):
         launch = document.find("launch")
         if launch is not None:
             for item in launch.items:

@@ -157,7 +157,7 @@ def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
 
     if not any(name in source.text for name in (*_parameters(), "base_link_frame")):
         return
-    for document in documents(source)[0]:
+    for document in documents(source):
         entries = [(key, key.text.rpartition("/")[2], value) for key, value in document.entries]
         frame, is_filter = document.find("base_link_frame"), document.find("world_frame") is not None
         if frame is not None and is_filter:  # a ROS 1 file, loaded inside of the node

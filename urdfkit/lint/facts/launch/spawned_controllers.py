@@ -92,7 +92,7 @@ def definitions(model: Model) -> dict[str, list[tuple[Source, str]]]:
                 visit(source, value, (*path, key.text.strip("/")))
 
     for source in yamls(model):
-        for root in documents(source)[0]:
+        for root in documents(source):
             visit(source, root, ())
     return found
 

@@ -37,7 +37,7 @@ _ELEMENTS = ELEMENTS[2]
 
 def yaml_launch_defects(source: Source) -> Defects:
     """Yield the unknown actions and keys in a YAML launch file, and the required keys that an action lacks."""
-    for root in documents(source)[0]:
+    for root in documents(source):
         launch = root.find("launch")
         for key, value in root.entries:
             near = first_slip(key.text, ("launch",)) if launch is None and value.kind == "list" else None

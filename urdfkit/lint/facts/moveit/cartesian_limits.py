@@ -23,7 +23,7 @@ def cartesian_limit_defects(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield misspelt and missing Cartesian limits, and those of the wrong sign or type."""
     if "cartesian_limits" not in source.text:
         return
-    for document in documents(source)[0]:
+    for document in documents(source):
         for top in unwrapped(document):
             for key, limits in top.entries:
                 if key.text == "cartesian_limits" and limits.kind == "group":

@@ -92,7 +92,7 @@ def missing_paths(
         source = read_source(file, shown_as=shown_path(file), texts=model.texts)
     except ResourceError:
         return
-    for document in documents(source)[0]:
+    for document in documents(source):
         config = document.find("moveit_setup_assistant_config")
         for key in ("urdf", "srdf", "URDF", "SRDF"):
             section = config.find(key) if config is not None else None

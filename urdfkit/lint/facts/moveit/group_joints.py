@@ -19,7 +19,7 @@ from urdfkit.lint.facts.moveit.srdf import groups, joints_of
 def projection_defects(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:
     """Yield the projections of groups with joints that the groups do not contain."""
     defined = groups(root)
-    for group, settings in (entry for each in documents(source)[0] for top in unwrapped(each) for entry in top.entries):
+    for group, settings in (entry for each in documents(source) for top in unwrapped(each) for entry in top.entries):
         node = settings.find("projection_evaluator") if group.text in defined else None
         written = re.fullmatch(r"joints\(([\w\s,./-]+)\)", node.text.strip()) if node is not None else None
         members = joints_of(group.text, root, robot) if written is not None else None

@@ -17,7 +17,7 @@ def undefined_poses(source: Source, semantics: Element) -> Iterator[tuple[Node, 
     states: dict[str, list[str]] = {}
     for state in semantics.find_all("group_state"):
         states.setdefault(state.get("group") or "", []).append(state.get("name") or "")
-    for root in documents(source)[0]:
+    for root in documents(source):
         initial = root.find("initial")
         for entry in initial.items if initial is not None else ():
             group, pose = entry.find("group"), entry.find("pose")

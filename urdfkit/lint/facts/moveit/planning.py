@@ -59,7 +59,7 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
     """
     from urdfkit.lint.fix_builders import nearest
 
-    for document in documents(source)[0]:
+    for document in documents(source):
         yield from _plugins(document)
         for node in walk(document):
             yield from _pipeline(node)
@@ -217,7 +217,7 @@ def incomplete_entries(source: Source, is_ros2: bool, has_manager: bool) -> Defe
                 for parameter in ("type", *(() if "ns" in found else ("action_ns",))):
                     if parameter not in found and not _is_misspelt(parameter, found):
                         yield entry.name, f"controller `{name}` has no `{parameter}`"
-    for document in documents(source)[0]:
+    for document in documents(source):
         for top in unwrapped(document):
             lists = top.find("controller_list")
             for item in lists.items if lists is not None else ():

@@ -75,7 +75,7 @@ def moveit_yamls(model: Model) -> Iterator[tuple[Source, Element]]:
 
 def entries(source: Source) -> Iterator[MoveitEntry]:
     """Yield the groups, joints and controllers that a MoveIt YAML file configures."""
-    for document in documents(source)[0]:
+    for document in documents(source):
         for top in unwrapped(document):
             for key, value in top.entries:
                 if key.text == "joint_limits":
@@ -95,7 +95,7 @@ def entries(source: Source) -> Iterator[MoveitEntry]:
 
 def controller_names(source: Source) -> Iterator[tuple[list[Node], list[Node]]]:
     """Yield the names in ``controller_names`` of moveit_simple_controller_manager, and the names of its sections."""
-    for document in documents(source)[0]:
+    for document in documents(source):
         for top in unwrapped(document):
             value = top.find("moveit_simple_controller_manager")
             names = value.find("controller_names") if value is not None else None
@@ -116,7 +116,7 @@ def integer_limits(source: Source) -> Iterator[tuple[Node, str]]:
 
     Its setup assistant writes such integers (moveit2, issue 2776).
     """
-    for document in documents(source)[0]:
+    for document in documents(source):
         for top in unwrapped(document):
             groups = [each.settings for each in entries(source) if each.kind == "joint"] if top is document else []
             groups += [value for key, value in top.entries if key.text == "cartesian_limits"]

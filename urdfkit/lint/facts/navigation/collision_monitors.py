@@ -34,7 +34,7 @@ _PAIR = r"\[\s*[-+.\deE]+\s*,\s*[-+.\deE]+\s*\]"
 def monitor_defects(source: Source) -> Defects:
     """Yield the defects of collision_monitor and collision_detector."""
     for key, group in sections(source) if PARAMETERS in source.text else ():
-        if key.text.strip("/").rpartition("/")[2] not in ("collision_monitor", "collision_detector"):
+        if key.last_name not in ("collision_monitor", "collision_detector"):
             continue
         into, out = group.find("cmd_vel_in_topic"), group.find("cmd_vel_out_topic")
         if into is not None and out is not None and into.text.strip("/") == out.text.strip("/"):
@@ -79,7 +79,7 @@ def _part(section: Node, name: str, types: tuple[str, ...], is_polygon: bool) ->
 
 def mux_defects(source: Source) -> Defects:
     """Yield inputs of twist_mux with one priority, missing parameters, and stops that do not stop every input."""
-    for root in documents(source)[0] if "priority" in source.text else ():
+    for root in documents(source) if "priority" in source.text else ():
         groups = [group for _, group in sections(source)] if PARAMETERS in source.text else [root]
         groups += [value for _, value in root.entries] if PARAMETERS not in source.text else []
         for group in groups:

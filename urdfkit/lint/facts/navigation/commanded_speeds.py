@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_wheels import diff_drives, wheels_of
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, walk, yamls
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.model.model import Model
 
@@ -85,7 +85,7 @@ def _limits(model: Model) -> Iterator[tuple[str, float]]:
 
 def _speeds(source: Source) -> Iterator[tuple[str, Node]]:
     seen = set[int]()
-    for node in (each for root in documents(source)[0] for each in walk(root)):
+    for node in nodes(source):
         for key, value in node.entries:
             parts = [value] if key.text in (*_SPEEDS, *_SCALES) and value.kind == "text" else []
             if key.text in _SCALES and (along := value.find("x")) is not None:

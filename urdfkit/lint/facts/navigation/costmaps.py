@@ -47,10 +47,10 @@ def costmaps(model: Model) -> list[Costmap]:
     for source in yamls(model):
         if PARAMETERS in source.text:
             for key, group in sections(source):
-                name = key.text.strip("/").rpartition("/")[2]
+                name = key.last_name
                 found += [Costmap(source, name, group)] if name in COSTMAPS else []
             continue
-        names = {id(value): key.text for root in documents(source)[0] for key, value in root.entries}
+        names = {id(value): key.text for root in documents(source) for key, value in root.entries}
         for group in costmaps_of_ros1(source):
             name = names.get(id(group), "")
             found.append(Costmap(source, name if name in COSTMAPS else "", group))
@@ -102,7 +102,7 @@ def _layers(group: Node) -> Iterator[tuple[Node, str]]:
         if item.kind != "group" and (section := group.find(item.text)) is not None:
             kind = section.find("plugin")
         if name is not None:
-            yield name, kind.text.replace("/", "::").rpartition("::")[2] if kind is not None else ""
+            yield name, kind.class_name if kind is not None else ""
 
 
 def footprint_of(group: Node) -> tuple[Node, Points] | None:

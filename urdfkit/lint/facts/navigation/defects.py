@@ -57,7 +57,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         controllers: the names of the controllers of the robot, in which topics of sensors start.
     """
     if PARAMETERS not in source.text:
-        for root in documents(source)[0] if "base_link_frame" in source.text else ():  # a ROS 1 file
+        for root in documents(source) if "base_link_frame" in source.text else ():  # a ROS 1 file
             for group in (root, *(value for _, value in root.entries)):
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
                     yield from _filter(group, controllers)
@@ -68,7 +68,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
                 yield from _values(each)
         return
     for key, group in sections(source):
-        name = key.text.strip("/").rpartition("/")[2]
+        name = key.last_name
         if name in (*NODES, "slam_toolbox"):
             yield from choice_defects(group)
             for node in walk(group):
@@ -155,7 +155,7 @@ _SLIP_OF_TRUTH = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|al
 def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
     """Yield integers in parameters of the type double, and the reverse: value, parameter, the right text."""
     for key, group in sections(source) if PARAMETERS in source.text else ():
-        name = key.text.strip("/").rpartition("/")[2]
+        name = key.last_name
         is_filter = group.find("world_frame") is not None
         if name == "controller_manager":
             doubles, integers = frozenset[str](), frozenset(("update_rate",))

@@ -95,10 +95,10 @@ def filters(model: Model) -> list[Filter]:
     for source in yamls(model):
         if "world_frame" not in source.text:
             continue
-        named = [(key.text.strip("/").rpartition("/")[2], group) for key, group in sections(source)]
+        named = [(key.last_name, group) for key, group in sections(source)]
         groups = named or [
             (name, group)
-            for root in documents(source)[0]
+            for root in documents(source)
             for name, group in (("", root), *((key.text, value) for key, value in root.entries))
         ]
         for name, group in groups:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.topics.graph import published_by_type
@@ -28,7 +28,7 @@ _PAIRS = (
 
 def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield the second of two frames of a node in a YAML file that must differ and are equal, with the message."""
-    for node in (node for root in documents(source)[0] for node in walk(root) if "frame" in source.text):
+    for node in nodes(source) if "frame" in source.text else ():
         for names in _PAIRS if node.entries else ():
             first, second = (node.find(name) for name in names)
             if first is not None and second is not None and first.text and first.text == second.text:
@@ -51,7 +51,7 @@ def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
 
     found: list[tuple[Source, Node, Node]] = []
     for source in yamls(model):
-        for node in (node for root in documents(source)[0] for node in walk(root) if "frame" in source.text):
+        for node in nodes(source) if "frame" in source.text else ():
             world = node.find("world_frame")  # parameter-value-invalid compares it with the other frames
             if world is not None and world.text not in [value.text for _, value in node.entries if value is not world]:
                 continue

@@ -22,7 +22,7 @@ _IMAGES = ("*.pgm", "*.png", "*.bmp")
 
 def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield the missing image, the unknown mode and the impossible numbers of a map."""
-    for root in documents(source)[0] if "occupied_thresh" in source.text else ():
+    for root in documents(source) if "occupied_thresh" in source.text else ():
         image, resolution, origin, occupied, free = (root.find(key) for key in _KEYS)
         if image is None or resolution is None or occupied is None or free is None:
             continue

@@ -32,9 +32,9 @@ def misspelt_navigation(source: Source) -> tuple[tuple[Node, str, str], ...]:
 def _misspelt_in_ros2(source: Source) -> Iterator[tuple[Node, str, str]]:
     from urdfkit.lint.facts.ros_packages import is_slip
 
-    named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
+    named = [(key, group, key.last_name) for key, group in sections(source)]
     written = {name for _, _, name in named}
-    for outer, value in (entry for root in documents(source)[0] for entry in root.entries):
+    for outer, value in (entry for root in documents(source) for entry in root.entries):
         if outer.text in COSTMAPS and not {outer.text, PARAMETERS} & {key.text for key, _ in value.entries}:
             yield from ((key, "node", outer.text) for key, inner in value.entries if inner.find(PARAMETERS) is not None)
     for key, group, name in named:
@@ -86,7 +86,7 @@ def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
             near = next((each for each in sorted(COSTMAP_ROS1 - names) if is_slip(key.text, each)), None)
             if key.text not in COSTMAP_ROS1 and len(key.text) >= 6 and near is not None and len(near) >= 6:
                 yield key, "parameter", near
-    for key, value in (entry for root in documents(source)[0] for entry in root.entries):
+    for key, value in (entry for root in documents(source) for entry in root.entries):
         near = next((each for each in COSTMAPS if is_slip(key.text, each)), None)
         if key.text not in COSTMAPS and near is not None and any(value is each for each in costmaps):
             yield key, "namespace", near

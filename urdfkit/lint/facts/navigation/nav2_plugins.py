@@ -34,7 +34,7 @@ def nav2_defects(source: Source) -> Defects:
     """Yield the defects of the plugins and frames of Nav2 in a ROS 2 parameter file."""
     if PARAMETERS not in source.text:
         return
-    groups = {key.text.strip("/").rpartition("/")[2]: (key, group) for key, group in sections(source)}
+    groups = {key.last_name: (key, group) for key, group in sections(source)}
     for name, (key, group) in groups.items():
         if name in ("recoveries_server", *NODES):
             yield from _of_galactic(source, key, name, group, "behavior_server" in groups)
@@ -95,7 +95,7 @@ def _unlisted(name: str, group: Node) -> Defects:
 
 def _class(value: Node) -> str:
     plugin = value.find("plugin")
-    return plugin.text.replace("/", "::").rpartition("::")[2] if plugin is not None else ""
+    return plugin.class_name if plugin is not None else ""
 
 
 def _driving(group: Node) -> Defects:

@@ -15,7 +15,7 @@ from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
 from urdfkit.lint.facts.navigation.plugin_parameters import foreign_parameters, repeated_plugins, short_model_steps
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.parameters.other_names import renamed_in
@@ -88,7 +88,7 @@ def _unread_sections(files: list[Source]) -> Defects:
     written: dict[Path | None, list[tuple[Source, Node]]] = {}
     for source in files:
         package = package_of(Path(source.file))
-        for node in (each for root in documents(source)[0] for each in walk(root)):
+        for node in nodes(source):
             for key, value in node.entries:
                 if key.text in _LOADED and value.kind == "text":
                     loaded.setdefault((package, key.text), set()).add(value.text.rpartition("/")[2])
@@ -106,7 +106,7 @@ def _unread_sections(files: list[Source]) -> Defects:
 
 def _in_ros1(source: Source, loaded: set[str]) -> Defects:
     """Yield the unknown classes of planners and layers, and the parameters of other planners, in a ROS 1 file."""
-    for node in (each for root in documents(source)[0] for each in walk(root)):
+    for node in nodes(source):
         for key, value in node.entries:
             names = _OTHER_NAMES.get(key.text, {})
             if key.text not in loaded and not loaded.isdisjoint(_OTHER_NAMES):
@@ -130,9 +130,9 @@ def _mixed(source: Source) -> Defects:
     found: dict[str, list[Node]] = {"/": [], "::": []}
     for node in (each for _, group in sections(source) for each in walk(group)):
         plugin = node.find("plugin")
-        for separator, nodes in found.items():
+        for separator, plugins in found.items():
             if plugin is not None and plugin.text.partition(separator)[0] in _SINCE_JAZZY and separator in plugin.text:
-                nodes.append(plugin)
+                plugins.append(plugin)
     few, many = sorted(found, key=lambda each: len(found[each]))
     for plugin in found[few] if len(found[few]) < len(found[many]) else ():
         right = plugin.text.replace(few, many)
@@ -147,7 +147,7 @@ def _mixed(source: Source) -> Defects:
 def _costmap_topics(source: Source) -> Defects:
     """Yield topics of servers that do not end in the name of a topic that the servers can read."""
     for key, group in sections(source):
-        if key.text.strip("/").rpartition("/")[2] not in _SERVERS:
+        if key.last_name not in _SERVERS:
             continue
         for parameter, value in group.entries:
             wanted = next((topic for end, topic in _TOPICS.items() if parameter.text.endswith(end)), None)

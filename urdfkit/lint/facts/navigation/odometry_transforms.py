@@ -44,7 +44,7 @@ def _filters(source: Source) -> Iterator[Node]:
     if "world_frame" not in source.text:
         return
     groups = [group for _, group in sections(source)] or [
-        group for root in documents(source)[0] for group in (root, *(value for _, value in root.entries))
+        group for root in documents(source) for group in (root, *(value for _, value in root.entries))
     ]
     for group in groups:
         world, odom, publishes = (group.find(name) for name in ("world_frame", "odom_frame", "publish_tf"))

@@ -57,7 +57,7 @@ def foreign_parameters(source: Source) -> Defects:
     """Yield each plugin whose section has parameters of one other plugin only: file, value of ``plugin``, message."""
     for node in (each for _, group in sections(source) for each in walk(group)):
         plugin = node.find("plugin")
-        name = plugin.text.replace("/", "::").rpartition("::")[2] if plugin is not None else ""
+        name = plugin.class_name if plugin is not None else ""
         own = next((row for row in _rows() if name in row[0]), None)
         if plugin is None or own is None or name in _OF_TWO_PLUGINS:
             continue
@@ -79,7 +79,7 @@ def repeated_plugins(source: Source) -> Defects:
         seen: dict[str, list[tuple[str, Node]]] = {}
         for key, value in group.entries:
             plugin = value.find("plugin")
-            name = plugin.text.replace("/", "::").rpartition("::")[2] if plugin is not None else ""
+            name = plugin.class_name if plugin is not None else ""
             if plugin is not None and name in _SINGLE:
                 seen.setdefault(name, []).append((key.text, plugin))
         for name, found in seen.items():

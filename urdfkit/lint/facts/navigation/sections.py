@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes
 from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1
 
 COSTMAPS = ("local_costmap", "global_costmap")
@@ -14,7 +14,7 @@ COSTMAPS = ("local_costmap", "global_costmap")
 
 def sections(source: Source) -> Iterator[tuple[Node, Node]]:
     """Yield the names of ROS 2 nodes in a YAML file with their parameters; namespaces are passed over."""
-    waiting = [(entry, 0) for root in documents(source)[0] for entry in root.entries]
+    waiting = [(entry, 0) for root in documents(source) for entry in root.entries]
     while waiting:
         (key, value), depth = waiting.pop(0)
         group = value.find(PARAMETERS)
@@ -29,7 +29,7 @@ def costmaps_not_nested(source: Source) -> Iterator[tuple[Node, str]]:
 
     Source: nav2_costmap_2d (costmap_2d_ros.cpp), Humble to Rolling: the node and its namespace have the same name.
     """
-    for root in documents(source)[0] if PARAMETERS in source.text else ():
+    for root in documents(source) if PARAMETERS in source.text else ():
         for key, value in root.entries:
             if key.text in COSTMAPS and value.find(PARAMETERS) is not None and value.find(key.text) is None:
                 yield key, f"the node is `/{key.text}/{key.text}`; write `{key.text}:` twice, one level below the other"
@@ -39,6 +39,6 @@ def costmaps_of_ros1(source: Source) -> Iterator[Node]:
     """Yield the groups of parameters of costmap_2d in a ROS 1 YAML file."""
     if "footprint" not in source.text and "frame" not in source.text:
         return
-    for node in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
+    for node in (each for each in nodes(source) if each.kind == "group"):
         if len({key.text for key, _ in node.entries} & COSTMAP_ROS1) >= 3:
             yield node

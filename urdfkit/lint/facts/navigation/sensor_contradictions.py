@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from urdfkit.description.urdf.robot import GazeboBlock
 from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
 from urdfkit.lint.facts.gazebo.sensor_topics import published
 from urdfkit.lint.model.model import Model
 
@@ -29,7 +29,7 @@ def sensor_contradictions(model: Model) -> Defects:
     lasers = {one.topic.strip("/"): one.key[0] for one in published(model) if one.type == "LaserScan"}
     ranges = _ranges(model)
     for source in yamls(model):
-        for node in (each for root in documents(source)[0] for each in walk(root) if each.entries):
+        for node in (each for each in nodes(source) if each.entries):
             topic, kind, frame = (node.find(name) for name in ("topic", "data_type", "sensor_frame"))
             if topic is not None and kind is not None and kind.text == "LaserScan":
                 link = lasers.get(topic.text.strip("/")) or (frame.text if frame is not None else "")

@@ -11,7 +11,7 @@ from urdfkit.description.launch.python_constants import launch_reader, parsed
 from urdfkit.description.packages.related_files import CODE, LAUNCH, neighbours
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.control.yaml_tree import documents, span_of
+from urdfkit.lint.facts.control.yaml_tree import span_of, syntax_error
 from urdfkit.lint.facts.launch.executables import released
 from urdfkit.lint.facts.launch.node_parameters import parameters_of
 from urdfkit.lint.facts.navigation.sections import sections
@@ -65,7 +65,7 @@ def misnamed(model: Model) -> Defects:
     started = {name_of_node(node) for node in nodes}
     by_file = {source.file: source for source in files.values()}
     for file, readers in users.items():
-        keys = [(key, key.text.strip("/").rpartition("/")[2]) for key, _ in sections(by_file[file])]
+        keys = [(key, key.last_name) for key, _ in sections(by_file[file])]
         if not keys or any("*" in key.text for key, _ in keys):
             continue
         seen = set[tuple[int, int]]()
@@ -106,11 +106,11 @@ def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], start
     accepted = parameters_of(_default(node))
     found = []
     for section, group in sections(file):
-        name = section.text.strip("/").rpartition("/")[2]
+        name = section.last_name
         written = [key.text.partition(".")[0] for key, _ in group.entries if not re.search(r"\d", key.text)]
         if name not in started and written and 2 * sum(each in accepted for each in written) >= len(written):
             found.append(name)
-    named = {key.text.strip("/").rpartition("/")[2] for key, _ in sections(file)}
+    named = {key.last_name for key, _ in sections(file)}
     alike = [each for each in readers if each.program == node.program and name_of_node(each) not in named]
     return found[0] if len(found) == len(alike) == 1 else ""
 
@@ -156,7 +156,7 @@ def _listed(source: Source) -> Iterator[tuple[str, Span]]:
     """Yield the names in ``node_names`` of the lifecycle managers of a file, with their places."""
     tree = parsed(source) if source.file.endswith(".py") else None
     if source.file.endswith((".yaml", ".yml")):
-        for _, group in (each for each in sections(source) if documents(source)[1] is None):
+        for _, group in (each for each in sections(source) if syntax_error(source) is None):
             names_node = group.find("node_names")
             yield from ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
     reader = launch_reader(tree) if tree is not None else None

@@ -21,9 +21,9 @@ def groups_of(node: LaunchedNode, files: dict[tuple[str, str], Source]) -> Itera
     """
     for source in (files[file] for file in node.files if file in files):
         if PARAMETERS not in source.text:
-            yield from ((source, root) for root in documents(source)[0])
+            yield from ((source, root) for root in documents(source))
         names = {node.name.name} if node.name is not None else set()
         for key, group in sections(source):
-            name = key.text.strip("/").rpartition("/")[2]
+            name = key.last_name
             if name in names or (not node.has_name and re.sub(r"_node$", "", node.program) in name) or "*" in name:
                 yield source, group

@@ -101,7 +101,7 @@ def _in_parameter_files(model: Model) -> Defects:
             continue
         for source in (files[file] for file in node.files if file in files):
             for key, group in sections(source):
-                value, name = group.find(_KEY), key.text.strip("/").rpartition("/")[2]
+                value, name = group.find(_KEY), key.last_name
                 is_own = name == (name_of_node(node) or node.program)
                 if (
                     value is not None

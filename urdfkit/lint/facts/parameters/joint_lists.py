@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
 
 _JOINTS = ("joints", "joint_names")
 _NO_POSITIONS = (
@@ -24,7 +24,7 @@ def list_defects(source: Source, robot: Robot) -> Iterator[tuple[Node, str]]:
 
     A list is compared if a list of numbers next to it, or the list itself, has one value for each joint.
     """
-    for group in (node for root in documents(source)[0] for node in walk(root) if node.entries):
+    for group in (node for node in nodes(source) if node.entries):
         joints = next((list_ for name in _JOINTS if (list_ := group.find(name)) is not None), None)
         names = [item.text for item in joints.items] if joints is not None else []
         if len(names) < 2 or any(name not in robot.joint_by_name for name in names):

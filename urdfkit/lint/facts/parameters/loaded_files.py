@@ -64,7 +64,7 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
 
 def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
     """Return why the costmaps of move_base do not read a file; None if they do, or if it is for another part."""
-    roots = documents(parameters)[0]
+    roots = documents(parameters)
     names = {key.text for root in roots for key, _ in root.entries}
     if not namespace and not names & {*COSTMAPS} and len(names & COSTMAP_ROS1) + len(names & _LAYERS) > 2:
         return 'has parameters of costmaps, which these read in their namespace only; add `ns="local_costmap"`'

@@ -10,7 +10,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, walk, yamls
 from urdfkit.lint.facts.navigation.defects import choice_defects
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.node_sections import groups_of
@@ -54,7 +54,7 @@ def node_defects_of_ros1(model: Model) -> Iterator[tuple[Source, Node, str]]:
         for one in settings(source):
             names = OF_CONTROLLERS.get(one.kind, {})
             yield from ((source, *defect) for defect in renamed_in(one.name, one.group, names))
-        for node in (each for root in documents(source)[0] for each in walk(root)):
+        for node in nodes(source):
             for key, inputs in node.entries if "priority" in source.text else ():
                 is_group = key.text in ("topics", "locks") and any(each.find("priority") for _, each in inputs.entries)
                 if is_group:
@@ -92,7 +92,7 @@ def wrong_numbers_of_nodes(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 def kind_of(key: Node, group: Node) -> str:
     """Return the node of the schemas to which a section belongs."""
-    name = key.text.strip("/").rpartition("/")[2]
+    name = key.last_name
     if group.find("world_frame") is not None or re.fullmatch(r"[eu]kf_(?:filter|localization|se)?_?node\w*", name):
         return "ekf"
     return name
@@ -192,7 +192,7 @@ def _nested_lists(source: Source) -> Defects:
 
     Sources: rcl_yaml_param_parser/src/parse.c; ros-navigation/navigation2, issues 1874 and 1976.
     """
-    for root in documents(source)[0] if PARAMETERS in source.text else ():
+    for root in documents(source) if PARAMETERS in source.text else ():
         for section in [inner for node in walk(root) if (inner := node.find(PARAMETERS)) is not None]:
             for key, value in (entry for node in walk(section) for entry in node.entries):
                 lists = [item for item in value.items if item.kind == "list"]

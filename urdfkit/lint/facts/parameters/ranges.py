@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
 from urdfkit.lint.facts.navigation.tables import ORDERED
 
 _RANGES = """
@@ -95,7 +95,7 @@ def _ranges() -> dict[str, _Row]:
 def out_of_range(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield the numbers in a YAML file that are far outside of the sensible range of their parameter."""
     ranges, seen = _ranges(), set[tuple[int, int]]()
-    for node in (node for root in documents(source)[0] for node in walk(root) if node.entries):
+    for node in (node for node in nodes(source) if node.entries):
         names = {key.text for key, _ in node.entries}
         for key, value in node.entries:
             most, angle = _ANGLES.get(key.text), number_of(value) if value.kind == "text" else None
@@ -128,7 +128,7 @@ def out_of_order(source: Source) -> Iterator[tuple[Node, str]]:
 
     Also yields parameters of teleop_twist_joy with the same value.
     """
-    for node in (node for root in documents(source)[0] for node in walk(root) if len(node.entries) > 1):
+    for node in (node for node in nodes(source) if len(node.entries) > 1):
         numbers = {key.text: number_of(value) for key, value in node.entries if value.kind == "text"}
         for low, high in ORDERED:
             least, most, value = numbers.get(low), numbers.get(high), node.find(low)

@@ -66,7 +66,7 @@ def _unbridged(model: Model) -> dict[str, str]:
     """Return topic of a sensor in Gazebo that no bridge has as its topic in ROS → its topic in ROS."""
     pairs: dict[str, str] = {}
     for source in yamls(model):
-        for entry in (item for root in documents(source)[0] for item in root.items):
+        for entry in (item for root in documents(source) for item in root.items):
             gazebo, ros = entry.find("gz_topic_name") or entry.find("ign_topic_name"), entry.find("ros_topic_name")
             direction = entry.find("direction")
             if gazebo is not None and ros is not None and (direction is None or direction.text.endswith("_TO_ROS")):
@@ -136,7 +136,7 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
     drives = drive_command_topics(model)
     for source in yamls(model):
         for key, group in sections(source):
-            named.setdefault(key.text.strip("/").rpartition("/")[2], []).append((source, group))
+            named.setdefault(key.last_name, []).append((source, group))
         for one in declared(source):
             if "diff_drive" in one.kind.text:
                 own = (

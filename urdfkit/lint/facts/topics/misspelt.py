@@ -15,7 +15,7 @@ from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.control.yaml_tree import documents, start_of, walk
+from urdfkit.lint.facts.control.yaml_tree import nodes, start_of
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
@@ -137,7 +137,7 @@ def mentions(model: Model) -> Iterator[Mention]:
         elif file.endswith(LAUNCH):
             yield from _in_elements(source)
         elif file.endswith((".yaml", ".yml")):
-            for group in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
+            for group in (each for each in nodes(source) if each.kind == "group"):
                 is_bridge = any(group.find(key) is not None for key in ("ros_type_name", "gz_type_name"))
                 for key, value in group.entries:
                     is_topic = key.text == BRIDGE_KEYS[0] if is_bridge else re.fullmatch(_PARAMETER, key.text)

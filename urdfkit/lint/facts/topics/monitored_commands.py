@@ -39,7 +39,7 @@ def unconnected_monitors(model: Model) -> Iterator[tuple[Source, Node, str]]:
     is_closed = bool(drive_command_topics(model)) and "cmd_vel" not in inputs and not has_drive(model)
     for source in yamls(model):
         for key, group in sections(source) if "cmd_vel_in_topic" in source.text and PARAMETERS in source.text else ():
-            if key.text.strip("/").rpartition("/")[2] != "collision_monitor":
+            if key.last_name != "collision_monitor":
                 continue
             for parameter, common in _COMMON.items():
                 value = group.find(parameter)

@@ -57,7 +57,7 @@ def robot_topics(model: Model) -> RobotTopics:
         elements.setdefault(last(text), []).append(element)
     bridged = set[str]()
     for source in yamls(model):
-        for item in (item for root in documents(source)[0] for item in root.items):
+        for item in (item for root in documents(source) for item in root.items):
             names = [last(node.text) for key in BRIDGE_KEYS if (node := item.find(key)) is not None]
             # A name that nearly equals the other side of its bridge may be misspelt.
             is_equal = len(names) < 2 or not is_slip(names[0], names[-1])

@@ -17,7 +17,7 @@ from urdfkit.lint.facts.control.controller_joints import Named, controllers
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, start_of, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
@@ -225,7 +225,7 @@ def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:
         published.add(moved.get(_COMMANDS[node.package], _COMMANDS[node.package]))
     words = Words(model)
     for source in yamls(model) if published else ():
-        entries = [each for root in documents(source)[0] for node in walk(root) for each in node.entries]
+        entries = [each for node in nodes(source) for each in node.entries]
         for group in (value for key, value in entries if key.text == "topics" and "priority" in source.text):
             for topic in (value.find("topic") for _, value in group.entries if value.find("priority") is not None):
                 name = topic.text.strip("/") if topic is not None else ""
@@ -251,7 +251,7 @@ def _mux_topics(model: Model, kinds: tuple[str, ...] = ("topics",)) -> Iterator[
     for source in yamls(model):
         if "priority" not in source.text:
             continue
-        for group in (each for root in documents(source)[0] for each in walk(root)):
+        for group in nodes(source):
             for key, inputs in group.entries:
                 for node in walk(inputs) if key.text in kinds else ():
                     topic = node.find("topic")

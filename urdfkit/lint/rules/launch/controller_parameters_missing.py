@@ -63,7 +63,7 @@ class ControllerParametersMissing(RobotRule):
             value = tag.attributes.get("value")
             if value is None or value.value != "moveit_simple_controller_manager/MoveItSimpleControllerManager":
                 continue
-            lists = [file for file in yamls(model) if any(root.find("controller_list") for root in documents(file)[0])]
+            lists = [file for file in yamls(model) if any(root.find("controller_list") for root in documents(file))]
             own = [file for file in lists if package_of(Path(file.file)) == package_of(Path(source.file))]
             is_unread = all(loaders(files, file) == [] for file in lists)
             if any(_is_misspelt(Path(file.file).name, files, model) for file in lists):

@@ -53,10 +53,10 @@ class MoveitControllerContradiction(RobotRule):
         names: set[str] = set()
         for source, _ in moveit_yamls(model):
             for entry in entries(source):
-                name = entry.name.text.strip("/").rpartition("/")[2]
+                name = entry.name.last_name
                 names.update([name] if entry.kind == "controller" else ())
                 if entry.kind == "controller" and name not in started:
-                    taken = {each.name.text.strip("/").rpartition("/")[2] for each in entries(source)}
+                    taken = {each.name.last_name for each in entries(source)}
                     meant = meant_controller(entry, started, taken)
                     if meant is not None:
                         message = f"no controller is called `{name}`" + Suggestion(meant, name)

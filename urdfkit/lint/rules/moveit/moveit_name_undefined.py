@@ -68,7 +68,7 @@ class MoveitNameUndefined(RobotRule):
                         yield from self._joint(source, joint, model, {})
                     if started is None:
                         started = [name for other in yamls(model) for name in controllers(other)]
-                    name = entry.name.text.strip("/").rpartition("/")[2]
+                    name = entry.name.last_name
                     if name not in started:
                         yield from self._near(source, entry.name, f"unknown controller `{name}`", name, started)
                     elif "controller_list" in source.text:

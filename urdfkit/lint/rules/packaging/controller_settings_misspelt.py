@@ -119,7 +119,7 @@ class ControllerSettingsMisspelt(RobotRule):
         from urdfkit.lint.facts.control.controller_settings import sections_without_parameters
         from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of
 
-        for root in documents(source)[0]:
+        for root in documents(source):
             for _, group in groups(root):
                 kind = group.find("type")
                 if kind is None or "/" in kind.text or not kind.text:

@@ -69,7 +69,7 @@ class CostmapContradictsRobot(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each radius that does not suit the robot."""
         from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
-        from urdfkit.lint.facts.control.yaml_tree import documents, number_of, span_of, walk, yamls
+        from urdfkit.lint.facts.control.yaml_tree import nodes, number_of, span_of, yamls
         from urdfkit.lint.facts.navigation.costmaps import footprint_of, inscribed_radius
         from urdfkit.lint.facts.navigation.sensor_contradictions import sensor_contradictions
 
@@ -80,7 +80,7 @@ class CostmapContradictsRobot(RobotRule):
         if size is None:
             return
         for source in sources:
-            for node in (node for root in documents(source)[0] for node in walk(root)):
+            for node in nodes(source):
                 polygon, value = footprint_of(node), node.find("robot_radius")
                 radius = number_of(value)
                 if polygon is not None and inscribed_radius(polygon[1]) > 0.0:

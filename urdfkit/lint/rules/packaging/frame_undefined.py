@@ -112,7 +112,7 @@ def _is_of_robot(source: Source, match: re.Match[str], model: Model) -> bool:
     They are the frames of drive controllers, broadcasters and sensors of the robot, and base frames next to others.
     """
     from urdfkit.lint.facts.control.controller_settings import settings
-    from urdfkit.lint.facts.control.yaml_tree import documents, walk
+    from urdfkit.lint.facts.control.yaml_tree import nodes
     from urdfkit.lint.facts.gazebo.sensor_topics import published
 
     pattern = rf"(?<![\w-]){re.escape(match[3])}(?![\w-])"
@@ -125,7 +125,7 @@ def _is_of_robot(source: Source, match: re.Match[str], model: Model) -> bool:
         written = (entry for one in of_robot for entry in one.group.entries)
         if any(value.line == line and key.text == match[1] for key, value in written):
             return True
-    groups = (node for root in documents(source)[0] for node in walk(root))
+    groups = nodes(source)
     around = [node for node in groups if any((key.text, value.line) == (match[1], line) for key, value in node.entries)]
     if match[1] == "sensor_frame":
         topics = {publication.topic.strip("/") for publication in published(model)}

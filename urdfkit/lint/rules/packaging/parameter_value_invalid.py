@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MISSPELT = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|als|alsee|lse|ase)"
@@ -82,7 +82,7 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.control.controller_needs import unmet_needs
         from urdfkit.lint.facts.control.parameter_values import contradictions, incomplete_controllers, value_defects
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-        from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
+        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
         from urdfkit.lint.facts.navigation.collision_monitors import monitor_defects, mux_defects
         from urdfkit.lint.facts.navigation.defects import navigation_defects
@@ -110,7 +110,7 @@ class ParameterValueInvalid(RobotRule):
             positions = list_defects(source, model.robot) if not is_of_controllers else ()
             for place, message in (*costmaps_not_nested(source), *positions):
                 yield self.at_span(span_of(source, place), message)
-            for node in (node for root in documents(source)[0] for node in walk(root)):
+            for node in nodes(source):
                 if (node.line, node.column) in seen:  # an alias
                     continue
                 seen.add((node.line, node.column))

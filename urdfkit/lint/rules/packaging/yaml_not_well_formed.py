@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Broken, Node
+from urdfkit.lint.facts.control.yaml_tree import Broken, Node, syntax_error
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -54,7 +54,7 @@ class YamlNotWellFormed(RobotRule):
         for source in yamls(model):
             if re.search(_TEMPLATE, source.text):
                 continue
-            roots, broken = documents(source)
+            roots, broken = documents(source), syntax_error(source)
             if broken is not None:
                 has_tab = "\t" in source.line(min(broken.line, len(source.line_starts)))
                 # In files with controllers, tabs are reported by controller-settings-misspelt.
