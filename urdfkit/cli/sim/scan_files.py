@@ -75,11 +75,10 @@ def _cloud(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
 
 
 def _colors(packed: Any, names: str) -> dict[str, Any]:
-    """Return a column of 0 to 255 for each colour of PCL's packed 32-bit colours (blue in the lowest byte)."""
-    import numpy as np
+    """Return a column of 0 to 255 for each colour of PCL's packed 32-bit colours."""
+    from urdfkit.messages.point_cloud import colors_of
 
-    bits = np.ascontiguousarray(packed).view("<u4")
-    return {name: (bits >> shift) & 255 for name, shift in zip("rgba", (16, 8, 0, 24), strict=True) if name in names}
+    return {name: column for name, column in zip("rgba", colors_of(packed).T, strict=True) if name in names}
 
 
 def _json(about: Mapping[str, Any], columns: Mapping[str, Any]) -> str:

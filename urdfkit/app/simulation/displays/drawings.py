@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from urdfkit.linear_algebra import Array
-from urdfkit.messages.point_cloud import NUMBERS
+from urdfkit.messages.point_cloud import colors_of, read_points, scan_points
 from urdfkit.sim.state.quaternion import from_matrix
 
 Item = dict[str, Any]
@@ -142,9 +142,8 @@ def occupancy_grid(message: Any) -> list[Item]:
 def scan(message: Any, field: str) -> list[Item]:
     """Return the points of a LaserScan, coloured by ``intensity`` or ``range`` [m]."""
     ranges = np.asarray(message.ranges, dtype=float)
-    angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
     seen = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
-    xyz = np.stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))], axis=-1)[seen]
+    xyz = scan_points(message)[seen]
     intensities = np.asarray(message.intensities, dtype=float)
     values = intensities[seen] if field == "intensity" and len(intensities) == len(ranges) else ranges[seen]
     return [_points(xyz, values, ["range", *(["intensity"] if len(intensities) else [])])]
@@ -152,26 +151,18 @@ def scan(message: Any, field: str) -> list[Item]:
 
 def cloud(message: Any, field: str) -> list[Item]:
     """Return the points of a PointCloud2 with the values of a field, or by default the colours of ``rgb``."""
-    offsets = {each.name: (each.offset, NUMBERS.get(each.datatype)) for each in message.fields}
-    if not message.point_step or any(axis not in offsets for axis in "xyz"):
+    if not message.point_step:
         return []
-    rows = np.frombuffer(np.asarray(message.data, dtype=np.uint8).tobytes(), dtype=np.uint8)
-    rows = rows[: len(rows) // message.point_step * message.point_step].reshape(-1, message.point_step)
-
-    def column(name: str) -> Array:
-        offset, number = offsets[name]
-        kind = np.dtype(number)
-        found: Array = np.ascontiguousarray(rows[:, offset : offset + kind.itemsize]).view(kind)[:, 0].astype(float)
-        return found
-
-    xyz = np.stack([column(axis) for axis in "xyz"], axis=-1)
+    rows = read_points(message)
+    names = list(rows.dtype.names)
+    if any(axis not in names for axis in "xyz"):
+        return []
+    xyz = np.stack([rows[axis].astype(float) for axis in "xyz"], axis=-1)
     finite = np.isfinite(xyz).all(axis=1)
-    names = [name for name, (_, kind) in offsets.items() if kind is not None]
-    packed = next((name for name in ("rgb", "rgba") if name in offsets), None)
+    packed = next((name for name in ("rgb", "rgba") if name in names and rows[name].dtype.itemsize == 4), None)
     if packed is not None and field in ("", packed):
-        start = offsets[packed][0]
-        return [_points(xyz[finite], None, names, rows[finite][:, [start + 2, start + 1, start]])]
-    return [_points(xyz[finite], column(field)[finite] if field in names else None, names)]
+        return [_points(xyz[finite], None, names, colors_of(rows[packed][finite])[:, :3])]
+    return [_points(xyz[finite], rows[field][finite].astype(float) if field in names else None, names)]
 
 
 def _points(xyz: Array, values: Array | None, fields: list[str], colors: Any = None) -> Item:

@@ -182,9 +182,8 @@ class JointSliders(Feature):
             return
         if self._now() != self._states:  # a controller was loaded, started or stopped
             self.show()
-        measure = {"position": "position", "velocity": "velocity", "effort": "effort"}
         rows = {
-            name: {joint: round(getattr(arm.robot.state, measure[arm.of])(joint), 6) for joint in arm.handles}
+            name: {joint: round(getattr(arm.robot.state, arm.of)(joint), 6) for joint in arm.handles}
             for name, arm in self._arms.items()
         }
         self.server.send_to_subscribers(KEY, KEY + "_now", values=rows)

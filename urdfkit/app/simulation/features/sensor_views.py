@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.bus import Topic
+from urdfkit.messages.point_cloud import colors_of, read_points, scan_points
 from urdfkit.sim.plugins.sensors.cameras.annotated_camera import GzSegmentationCamera
 from urdfkit.sim.plugins.sensors.cameras.camera import Camera
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import IMAGE
@@ -196,21 +197,13 @@ def points(message: Any, viewpoint: Array, *, colored: bool = False) -> bytes:
     """
     colors = None
     if hasattr(message, "ranges"):
-        angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
-        ranges = np.asarray(message.ranges, dtype=float)
-        seen = np.isfinite(ranges)
-        angles, ranges = angles[seen], ranges[seen]
-        found = np.stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))], axis=-1)
+        found = scan_points(message)
     elif hasattr(message, "data"):
-        offsets = {field.name: field.offset for field in message.fields}
-        rows = np.frombuffer(message.data.tobytes(), dtype=np.uint8).reshape(-1, message.point_step)
-        found = np.stack(
-            [np.ascontiguousarray(rows[:, offsets[axis] : offsets[axis] + 4]).view("<f4")[:, 0] for axis in "xyz"],
-            axis=-1,
-        ).astype(float)
-        if colored and "rgb" in offsets:
-            blue_first = rows[:, offsets["rgb"] : offsets["rgb"] + 3]
-            colors = np.concatenate([blue_first[:, ::-1], np.full((len(rows), 1), 255, dtype=np.uint8)], axis=1)
+        rows = read_points(message)
+        found = np.stack([rows[axis] for axis in "xyz"], axis=-1).astype(float)
+        if colored and "rgb" in rows.dtype.names:
+            colors = colors_of(rows["rgb"])
+            colors[:, 3] = 255
     else:
         found = np.array([(each.x, each.y, each.z) for each in message.points], dtype=float).reshape(-1, 3)
     finite = np.isfinite(found).all(axis=1)
