@@ -16,7 +16,7 @@ pytest.importorskip("pinocchio")
 from urdfkit import Simulator
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.cli import main
-from urdfkit.description.loading import model_argument
+from urdfkit.description.model_argument import model_argument
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import UrdfkitError
 from urdfkit.lint import lint

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.document_root import check_is_robot
 from urdfkit.description.encoding_defects import encoding_repairs
+from urdfkit.description.model_argument import model_argument
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.structure_defects import repaired_structure
@@ -25,7 +25,7 @@ from urdfkit.description.xml.misplaced_declaration import without_declaration
 from urdfkit.description.xml.reader import read_source
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ModelError, UsageError, XacroError, XmlError
-from urdfkit.resources import ModelArgument, find_model
+from urdfkit.resources import ModelArgument
 
 
 def load(
@@ -232,42 +232,6 @@ def expand(
     expanded = expand_file(model.path, arguments=model.arguments, packages=packages, run_xacro=True)
     refuse_unused(arguments, expanded.files)
     return expanded.xml
-
-
-def model_argument(
-    robot: Robot | str | Path,
-    *,
-    arguments: Mapping[str, str] | None = None,
-    package_path: Iterable[str | Path] = (),
-    macro: str | None = None,
-) -> ModelArgument:
-    """Return the file of a robot and the arguments to load it with.
-
-    Args:
-        robot: see `load`.
-        arguments: xacro arguments, added to the arguments of a loaded robot.
-        package_path: folders to search for packages first.
-        macro: macro of the file to instantiate.
-
-    Raises:
-        UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file.
-        ResourceError: no such file, folder or bundled robot.
-    """
-    arguments, folders = dict(arguments or {}), tuple(Path(folder) for folder in package_path)
-    if isinstance(robot, Robot):
-        if not robot.files:
-            raise UsageError(f"robot `{robot.name}` was not read from a file; pass a robot returned by urdfkit.load()")
-        if robot.packages is not None:
-            folders += robot.packages.search
-        name = robot.name or robot.files[0].stem
-        return ModelArgument(robot.files[0], {**robot.arguments, **arguments}, folders, name, macro)
-    if not isinstance(robot, (str, os.PathLike)):
-        raise UsageError(f"{robot!r} is not a robot: pass a file, a package folder, a bundled name or a loaded robot")
-    path = Path(robot)
-    if path.is_file():
-        return ModelArgument(path, arguments, folders, path.name.split(".")[0], macro)
-    found = find_model([str(robot)], package_path=folders)
-    return ModelArgument(found.path, {**found.arguments, **arguments}, found.package_path, found.name, macro)
 
 
 def _parsed(expanded: Expanded, arguments: Mapping[str, str]) -> Robot:

@@ -78,7 +78,7 @@ def lint(
     outcomes = [run(find_entries(paths), options)]
     for robot in every:
         if not isinstance(robot, (str, Path)):
-            from urdfkit.description.loading import model_argument
+            from urdfkit.description.model_argument import model_argument
 
             model = model_argument(robot, arguments=arguments, package_path=folders)
             own = {"arguments": model.arguments, "package_path": model.package_path}

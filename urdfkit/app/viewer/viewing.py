@@ -13,7 +13,8 @@ from urdfkit.app.page_handle import PageHandle
 from urdfkit.app.viewer.session import Session
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.description import Robot
-from urdfkit.description.loading import model_argument, refuse_unused
+from urdfkit.description.loading import refuse_unused
+from urdfkit.description.model_argument import model_argument
 from urdfkit.resources import ModelArgument
 
 

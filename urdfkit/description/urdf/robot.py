@@ -9,6 +9,13 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.description.urdf.joint import JOINT_TYPES as JOINT_TYPES
+from urdfkit.description.urdf.joint import Calibration as Calibration
+from urdfkit.description.urdf.joint import Dynamics as Dynamics
+from urdfkit.description.urdf.joint import Joint as Joint
+from urdfkit.description.urdf.joint import Limit as Limit
+from urdfkit.description.urdf.joint import Mimic as Mimic
+from urdfkit.description.urdf.joint import SafetyController as SafetyController
 from urdfkit.description.urdf.shapes import Box as Box
 from urdfkit.description.urdf.shapes import Capsule as Capsule
 from urdfkit.description.urdf.shapes import Cylinder as Cylinder
@@ -32,9 +39,6 @@ if TYPE_CHECKING:
     ProblemKind = Literal[
         "bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict", "zero", "version"
     ]
-
-JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "planar", "floating")
-"""The six joint types of URDF (http://wiki.ros.org/urdf/XML/joint)."""
 
 
 @record(eq=False)
@@ -100,98 +104,6 @@ class Link:
     visuals: tuple[Visual, ...]
     collisions: tuple[Collision, ...]
     element: Element = field(repr=False)
-
-
-@record(eq=False)
-class Limit:
-    """Limits of a joint; None if missing.
-
-    Attributes:
-        lower: [rad] or [m].
-        upper: [rad] or [m].
-        effort: [N·m] or [N].
-        velocity: [rad/s] or [m/s].
-        element: the ``<limit>``.
-        acceleration: [rad/s²] or [m/s²]; since URDF 1.2, like the next two.
-        deceleration: [rad/s²] or [m/s²]; if None, the limit of acceleration applies.
-        jerk: [rad/s³] or [m/s³].
-    """
-
-    lower: float | None
-    upper: float | None
-    effort: float | None
-    velocity: float | None
-    element: Element = field(repr=False)
-    acceleration: float | None = None
-    deceleration: float | None = None
-    jerk: float | None = None
-
-
-@record(eq=False)
-class Dynamics:
-    """`damping` [N·m·s/rad or N·s/m] and dry `friction` [N·m or N]; zero if missing."""
-
-    damping: float
-    friction: float
-    element: Element = field(repr=False)
-
-
-@record(eq=False)
-class Mimic:
-    """Position = multiplier · (position of `joint`) + offset."""
-
-    joint: str
-    multiplier: float
-    offset: float
-    element: Element = field(repr=False)
-
-
-@record(eq=False)
-class SafetyController:
-    """Soft limits and gains of ros_control."""
-
-    soft_lower_limit: float
-    soft_upper_limit: float
-    k_position: float
-    k_velocity: float | None
-    element: Element = field(repr=False)
-
-
-@record(eq=False)
-class Calibration:
-    """Reference positions [rad or m]."""
-
-    rising: float | None
-    falling: float | None
-    element: Element = field(repr=False)
-
-
-@record(eq=False)
-class Joint:
-    """A joint that connects `child` to `parent`. `type` is None if missing; `axis` is not normalised."""
-
-    name: str
-    type: str | None
-    parent: str | None
-    child: str | None
-    origin: Pose
-    axis: Vector
-    limit: Limit | None
-    dynamics: Dynamics | None
-    mimic: Mimic | None
-    safety_controller: SafetyController | None
-    calibration: Calibration | None
-    element: Element = field(repr=False)
-
-    @property
-    def has_axis(self) -> bool:
-        """Whether the axis has a direction: the square of its length is neither zero nor infinite."""
-        return 0.0 < sum(part * part for part in self.axis) < float("inf")
-
-    @property
-    def is_movable(self) -> bool:
-        """Whether the joint has a degree of freedom."""
-        return self.type in JOINT_TYPES and self.type != "fixed"
 
 
 @record(eq=False)

@@ -10,7 +10,7 @@ import pytest
 from urdfkit import Simulator
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.description import load
-from urdfkit.description.loading import model_argument
+from urdfkit.description.model_argument import model_argument
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import start_tag

@@ -14,6 +14,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
+from urdfkit.lint.facts.navigation.filter_inputs import filter_defects
 from urdfkit.lint.facts.navigation.sections import costmaps_of_ros1, sections
 from urdfkit.lint.facts.navigation.tables import (
     CHOICES,
@@ -40,11 +41,6 @@ from urdfkit.lint.facts.navigation.tables import (
 Defects = Iterator[tuple[Node, str]]
 
 _LISTS = ("plugins", "filters", "navigators")
-_INPUT = r"((?:odom|imu|pose|twist)\d+)(?:_(\w+))?"
-_OF_INPUTS = (
-    *("config", "differential", "relative", "queue_size", "remove_gravitational_acceleration", "nodelay"),
-    *("pose_rejection_threshold", "twist_rejection_threshold", "linear_acceleration_rejection_threshold"),
-)
 _INTEGER = r"[-+]?\d+"
 _DOUBLE = r"[-+]?\d*\.\d*"
 
@@ -60,7 +56,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         for root in documents(source) if "base_link_frame" in source.text else ():  # a ROS 1 file
             for group in (root, *(value for _, value in root.entries)):
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
-                    yield from _filter(group, controllers)
+                    yield from filter_defects(group, controllers)
         for node in costmaps_of_ros1(source):
             yield from choice_defects(node)
             yield from _plugins(node)
@@ -95,7 +91,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         elif name == "twist_mux":
             yield from _mux(group)
         elif group.find("world_frame") is not None and group.find("odom_frame") is not None:
-            yield from _filter(group, controllers)
+            yield from filter_defects(group, controllers)
             yield from _switches(group)
             yield from _values(group, FILTER_POSITIVE)
 
@@ -311,51 +307,3 @@ def _velocity_limits(group: Node) -> Defects:
                 wanted = "negative" if sign > 0 else "positive"
                 yield item, f"`{name}` has {number:g}; velocity_smoother requires zero or {wanted} values"
                 break
-
-
-def _filter(group: Node, controllers: frozenset[str]) -> Defects:
-    """Yield a world frame that is not one of the frames of robot_localization, and misspelt inputs."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
-    world, *frames = (group.find(name) for name in ("world_frame", "map_frame", "odom_frame"))
-    names = [frame.text for frame in frames if frame is not None]
-    is_literal = world is not None and world.text and len(names) == 2 and "$" not in "".join((world.text, *names))
-    if world is not None and is_literal and world.text not in names:
-        hint = Suggestion(nearest(world.text, names), world.text) or f"; write `{names[0]}` or `{names[1]}`"
-        yield world, f"`world_frame` is `{world.text}`, which is neither `map_frame` nor `odom_frame`" + hint
-    frequency = group.find("frequency")
-    rate = number_of(frequency) if frequency is not None else None
-    if frequency is not None and rate is not None and rate <= 0.0:
-        yield frequency, f"`frequency` is {rate:g}; it must be positive"
-    inputs = {key.text for key, _ in group.entries}
-    for key, value in group.entries:
-        at = re.fullmatch(_INPUT, key.text)
-        if at is None:
-            unnumbered = re.fullmatch(r"(odom|imu|pose|twist)(?:_(\w+))?", key.text)
-            if unnumbered is not None and unnumbered[2] in (None, *_OF_INPUTS):
-                first = next((f"{unnumbered[1]}{i}" for i in range(9) if f"{unnumbered[1]}{i}" in inputs), None)
-                right = key.text.replace(unnumbered[1], first or f"{unnumbered[1]}0", 1)
-                yield key, f"unknown parameter `{key.text}` of robot_localization" + Suggestion(right, key.text)
-            continue
-        if at[2] == "config" and value.items and all(each.text == "false" for each in value.items):
-            yield value, f"`{key.text}` is false for every value, so the filter does not use `{at[1]}`"
-        if at[2] == "config" and at[1] not in inputs:
-            others = [each for each in sorted(inputs) if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", each)]
-            free = [each for each in others if f"{each}_config" not in inputs]
-            hint = Suggestion(f"{free[0]}_config", at[1]) if len(free) == 1 else ""
-            yield key, f"`{key.text}` has no topic `{at[1]}`" + hint
-        if at[2] is not None and at[2] not in _OF_INPUTS:
-            near = next((each for each in _OF_INPUTS if is_slip(at[2], each) or at[2].startswith(f"{each}u")), None)
-            if near is not None:
-                yield (
-                    key,
-                    f"unknown parameter `{key.text}` of robot_localization" + Suggestion(f"{at[1]}_{near}", key.text),
-                )
-        elif at[2] is None and value.kind == "text":
-            first, separator, rest = value.text.strip("/").partition("/")
-            near = next((each for each in sorted(controllers) if is_slip(first, each)), None)
-            if separator and first not in controllers and near is not None:
-                yield (
-                    value,
-                    f"no controller `{first}` publishes `{value.text}`" + Suggestion(f"{near}/{rest}", value.text),
-                )
