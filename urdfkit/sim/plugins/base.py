@@ -55,7 +55,7 @@ class SimulatedPlugin(Periodic):
         """Return the parameters of the element.
 
         Args:
-            setup: what the plugin may use.
+            setup: the one of `configure`.
             names: further values of the placeholders in defaults.
         """
         return Parameters(self.plugin, self.spec, setup.names | names)

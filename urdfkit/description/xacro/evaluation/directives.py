@@ -1,4 +1,4 @@
-"""Directives: what the elements of xacro do, except macros and their calls."""
+"""Directives: the effects of the elements of xacro, except macros and their calls."""
 
 from __future__ import annotations
 
