@@ -155,6 +155,11 @@ ROBOT: tuple[Row, ...] = (
     ("sensor", "semantics.sensor_view_blocked", "SensorViewBlocked"),
     ("plugin", "semantics.caster_with_friction", "CasterWithFriction"),
     ("type=fixed", "semantics.tool_frame_inside_body", "ToolFrameInsideBody"),
+    (
+        "type=revolute type=continuous type=prismatic",
+        "semantics.joint_contradicts_name",
+        "JointContradictsName",
+    ),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),

@@ -19,6 +19,15 @@ _DISTANCE = 1e-4
 """Largest distance between two axes on one line [m]."""
 
 
+def axis_in_root(joint: Joint, model: Model) -> Vector | None:
+    """Return the axis of a joint in the root link; None if it is unknown."""
+    parent, axis = model.frames.get(joint.parent or ""), unit(joint.axis)
+    origin = joint.element.find("origin")
+    if parent is None or axis is None or (origin is not None and model.is_unresolved(origin, "rpy")):
+        return None
+    return rotate(parent.moved(joint.origin).rotation, axis)
+
+
 def on_one_line(model: Model) -> Iterator[tuple[Joint, Joint]]:
     """Yield each joint that turns about the same line as the moving joint that carries it: upper joint, lower joint.
 

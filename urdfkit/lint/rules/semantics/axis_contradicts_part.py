@@ -4,6 +4,7 @@ import re
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder, Joint, Vector
+from urdfkit.lint.facts.placement.joint_axes import axis_in_root
 from urdfkit.lint.facts.twins import Twins, links_of, twins
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.placement import shapes_of
@@ -78,7 +79,7 @@ class AxisContradictsPart(RobotRule):
         found: set[str] = set()
         for joint in model.robot.joints:
             is_whole = joint.is_movable and joint.child in model.robot.link_by_name
-            axis = _axis_in_root(joint, model) if is_whole else None
+            axis = axis_in_root(joint, model) if is_whole else None
             message = _defect(joint, axis, partners.get(joint.name), model) if axis is not None else None
             if message is not None and (joint.name in partners or not _is_disc(joint, model)):
                 found.add(joint.name)
@@ -95,15 +96,6 @@ class AxisContradictsPart(RobotRule):
         element = joint.element.find("axis") or joint.element
         help = "check <axis> and the rpy of <origin>"
         return self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
-
-
-def _axis_in_root(joint: Joint, model: Model) -> Vector | None:
-    """Return the axis of a joint in the root link; None if it is unknown."""
-    parent, axis = model.frames.get(joint.parent or ""), unit(joint.axis)
-    origin = joint.element.find("origin")
-    if parent is None or axis is None or (origin is not None and model.is_unresolved(origin, "rpy")):
-        return None
-    return rotate(parent.moved(joint.origin).rotation, axis)
 
 
 def _defect(joint: Joint, axis: Vector, pair: Twins | None, model: Model) -> str | None:

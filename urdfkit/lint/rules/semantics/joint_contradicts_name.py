@@ -1,0 +1,105 @@
+"""S917 joint-contradicts-name."""
+
+import re
+
+from urdfkit.description.urdf.robot import Joint
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.placement.joint_axes import axis_in_root
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_START, _END = r"(?:(?<![A-Za-z])|(?<=[a-z])(?=[A-Z]))", r"(?![a-z])"
+
+_SLIDES = re.compile(rf"{_START}(?i:slide|slider|sliding|prismatic|telescop\w*|elevator|extension|linear){_END}")
+"""Names of joints that move along a line."""
+
+_LIFTS = re.compile(rf"{_START}(?i:lift|elevator|forks?|mast_?(?:lift|stage|extension)){_END}")
+"""Names of joints that raise something."""
+
+_ABOUT_VERTICAL = re.compile(rf"{_START}(?i:pan|yaw|turntable|slew|slewing){_END}")
+_ABOUT_HORIZONTAL = re.compile(rf"{_START}(?i:tilt|pitch|knee){_END}")
+"""Names of joints that turn something about the vertical, and up and down."""
+
+_OTHER = re.compile(
+    r"(?i)thumb|finger|hand|gripper|claw|index|middle|ring|little|pinky|wrist|arm|shoulder|elbow|blade|rotor|prop|wing"
+    r"|wheel|caster|flap|crank|belt|pulley|screw|gear|spring|^roll|(?<=_)roll|_\d\d[lr]?$"
+)
+"""Names of parts that may have any direction at zero: hands (also with numbered fingers), arms, blades, mechanisms."""
+
+_ALONG, _ACROSS = 0.9, 0.2
+"""Cosine of the angle to the vertical: at least the first for vertical axes, at most the second for horizontal ones."""
+
+
+class JointContradictsName(RobotRule):
+    """The motion of a joint contradicts its name.
+
+    ## What it does
+    Compares the type and the axis of joints with the words in their names, with every joint at zero. A ``slide``,
+    ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint moves along a line; a sliding ``lift``,
+    ``elevator`` or ``fork`` moves up and down, and a ``lift`` does not turn about the vertical. ``pan``, ``yaw``,
+    ``slew`` and ``turntable`` joints turn about the vertical; ``tilt`` and ``pitch`` joints and knees do not. Hands,
+    arms, wheels and rotors are not checked, because they may have any direction at zero.
+
+    ## Why is this bad?
+    The part moves in an unexpected direction: the camera rolls instead of looking to the side, or the lift swings
+    through the robot.
+
+    ## Example
+    ```diff
+     <robot name="head">
+       <link name="base">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+       </link>
+       <link name="neck">
+         <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+       </link>
+       <joint name="head_pan_joint" type="revolute">
+         <parent link="base"/><child link="neck"/><origin xyz="0 0 0.3"/>
+    -    <axis xyz="0 1 0"/>
+    +    <axis xyz="0 0 1"/>
+         <limit lower="-1.5" upper="1.5" effort="5" velocity="2"/>
+       </joint>
+     </robot>
+    ```
+    """
+
+    code = "S917"
+    name = "joint-contradicts-name"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each joint that moves otherwise than its name states."""
+        if model.is_incomplete:
+            return
+        for joint in model.robot.joints:
+            if not joint.is_movable or _OTHER.search(joint.name) or joint.child not in model.robot.link_by_name:
+                continue
+            fault = _fault(joint, model)
+            if fault is not None:
+                message, element, attribute = fault
+                help = "check <axis> and the rpy of <origin>, or correct the name"
+                yield self.at(model, element, message, attribute=attribute, joint=joint.name, help=help)
+
+
+def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:
+    """Return the fault of the motion of a joint, the element with it, and its attribute; None if it suits the name."""
+    turns = joint.type in ("revolute", "continuous")
+    if turns and _SLIDES.search(joint.name):
+        return f"joint `{joint.name}` turns, though its name states that it slides", joint.element, "type"
+    about_vertical, about_horizontal = _ABOUT_VERTICAL.search(joint.name), _ABOUT_HORIZONTAL.search(joint.name)
+    lifts = _LIFTS.search(joint.name)
+    if not (about_vertical or about_horizontal or lifts) or (about_vertical and (about_horizontal or lifts)):
+        return None
+    axis = axis_in_root(joint, model)
+    if axis is None:
+        return None
+    is_vertical, is_horizontal = abs(axis[2]) > _ALONG, abs(axis[2]) < _ACROSS
+    element = joint.element.find("axis") or joint.element
+    if about_vertical is not None and turns and is_horizontal:
+        return f"joint `{joint.name}` turns about a horizontal axis, not about the vertical", element, "xyz"
+    if about_horizontal is not None and turns and is_vertical:
+        return f"joint `{joint.name}` turns about the vertical, not about a horizontal axis", element, "xyz"
+    if lifts is not None and turns and is_vertical:
+        return f"joint `{joint.name}` turns about the vertical, which lifts nothing", element, "xyz"
+    if lifts is not None and joint.type == "prismatic" and is_horizontal:
+        return f"joint `{joint.name}` slides horizontally, which lifts nothing", element, "xyz"
+    return None
