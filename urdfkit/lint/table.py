@@ -160,6 +160,7 @@ ROBOT: tuple[Row, ...] = (
         "semantics.joint_contradicts_name",
         "JointContradictsName",
     ),
+    ("part!", "semantics.twins_turn_differently", "TwinsTurnDifferently"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),

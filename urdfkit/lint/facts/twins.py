@@ -21,6 +21,9 @@ _SIDES: dict[str, tuple[str, ...]] = {
 }
 """Word for a part on the left → the words for its counterpart on the right."""
 
+_OTHER_SIDES: dict[str, tuple[str, ...]] = {other: (word,) for word, others in _SIDES.items() for other in others}
+"""Word for a part on the right → the word for its counterpart on the left."""
+
 _ENDS: dict[str, tuple[str, ...]] = {
     "front": ("rear", "back", "hind"),
     "fl": ("rl", "bl"),
@@ -73,8 +76,19 @@ def mirrored(name: str) -> tuple[str, ...]:
         >>> mirrored("left_wrist_joint")
         ('right_wrist_joint',)
     """
-    left: dict[str, tuple[str, ...]] = {other: (word,) for word, others in _SIDES.items() for other in others}
-    return (*_counterparts(name, _SIDES), *_counterparts(name, left, _RIGHT))
+    return (*_counterparts(name, _SIDES), *_counterparts(name, _OTHER_SIDES, _RIGHT))
+
+
+def side_of(name: str) -> str:
+    """Return ``left`` or ``right``, the side of the robot that a name states; empty if it states none or both.
+
+    Examples:
+        >>> side_of("fl_wheel_joint")
+        'left'
+    """
+    left = any(_counterparts(name, _SIDES))
+    right = any(_counterparts(name, _OTHER_SIDES, _RIGHT))
+    return "" if left is right else "left" if left else "right"
 
 
 def links_of(pair: Twins, model: Model) -> tuple[Link, Link] | None:

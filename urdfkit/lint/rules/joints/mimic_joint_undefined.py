@@ -1,6 +1,7 @@
 """J416 mimic-joint-undefined."""
 
 from urdfkit.description.urdf.robot import Joint
+from urdfkit.lint.facts.twins import mirrored, side_of
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -11,7 +12,8 @@ class MimicJointUndefined(RobotRule):
 
     ## What it does
     Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
-    contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either.
+    contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either. Also
+    reports joints that mimic one of the other side, if their own side has that joint and it mimics no other.
 
     ## Why is this bad?
     Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.
@@ -55,14 +57,17 @@ class MimicJointUndefined(RobotRule):
                 continue
             others = [name for name in model.robot.joint_by_name if name != joint.name]
             if mimic.joint in others:
-                if message := _unsuitable(model, joint, mimic.joint):
+                message, help = _unsuitable(model, joint, mimic.joint), "name a revolute, continuous or prismatic joint"
+                if not message and (own := _on_own_side(joint, mimic.joint, model)):
+                    message, help = f"joint `{joint.name}` mimics `{mimic.joint}` of the other side", f"name `{own}`"
+                if message:
                     yield self.at(
                         model,
                         mimic.element,
                         message,
                         attribute="joint",
                         joint=joint.name,
-                        help="name a revolute, continuous or prismatic joint, or remove <mimic>",
+                        help=f"{help}, or remove <mimic>",
                         severity="warning",
                     )
                 continue
@@ -83,6 +88,18 @@ class MimicJointUndefined(RobotRule):
                 else None,
             )
             yield from unless_masked(model, mimic.joint, suggestion, finding)
+
+
+def _on_own_side(joint: Joint, master: str, model: Model) -> str:
+    """Return the counterpart on the side of a joint of the joint that it mimics; empty if it does not cross the sides.
+
+    A counterpart that itself mimics is no other choice: grippers have one driven joint.
+    """
+    joints = model.robot.joint_by_name
+    own = next((name for name in mirrored(master) if name in joints), joint.name)
+    if own == joint.name or joints[own].mimic is not None or "" in (sides := {side_of(joint.name), side_of(master)}):
+        return ""
+    return own if len(sides) == 2 else ""
 
 
 def _unsuitable(model: Model, joint: Joint, master: str) -> str:

@@ -184,9 +184,17 @@ def _equal_below_mirrored(model: Model) -> Iterator[tuple[Joint, str]]:
 
 
 def _are_in_one_place(pair: Twins, links: tuple[Link, Link], model: Model) -> bool:
-    """Return whether twins with the same origin have the same axis, and shapes at the same place."""
+    """Return whether twins with the same origin have the same axis, and shapes at the same place.
+
+    Joints that turn about it in opposite directions count too, but fingers that slide apart do not.
+    """
     first, second = pair.first, pair.second
-    if first.origin.rpy != second.origin.rpy or (first.is_movable and first.axis != second.axis):
+    axes = (
+        [second.axis]
+        if first.type == "prismatic"
+        else [second.axis, (-second.axis[0], -second.axis[1], -second.axis[2])]
+    )
+    if first.origin.rpy != second.origin.rpy or (first.is_movable and first.axis not in axes):
         return False
     shapes = [[(shape.geometry, shape.origin) for shape in shapes_of(link)] for link in links]
     return bool(shapes[0]) and (shapes[0] == shapes[1] or _are_at_one_place(links, model))
