@@ -9,8 +9,9 @@ from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 
 _HANDED_ON = r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*"
-_ATTRIBUTE = rf"(?:<[\w:.-]+\s+)?[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"'](?:\s*/?>)?"
-"""Matches an attribute, or a tag with one attribute."""
+_ATTRIBUTE = rf"[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"']"
+_TAG = rf"<[\w:.-]+\s+{_ATTRIBUTE}\s*/?>"
+"""Matches a tag with one attribute."""
 
 _TEXT = rf"<[\w:.-]+>{_HANDED_ON}</"
 """Matches an element whose text is a parameter."""
@@ -19,9 +20,10 @@ _TEXT = rf"<[\w:.-]+>{_HANDED_ON}</"
 def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
     """Return the findings; those on ``${parameter}`` in a macro are moved to the value in the macro call.
 
-    A finding stays where it is if its message does not name the value, if several values cause it, perhaps by one slip
-    in the macro, or if the file of the macro suppresses findings by comments. The help names the place in the macro.
-    With urdfkit as the target all stay, since the repairs of the simulator and viewer are reported there.
+    A finding on more than the attribute stays where it is if its message does not name the value. All findings stay if
+    several values cause them, perhaps by one slip in the macro, or if the file of the macro suppresses findings by
+    comments. The help names the place in the macro. With urdfkit as the target all stay, since the repairs of the
+    simulator and viewer are reported there.
     """
     groups: dict[tuple[str, Span], list[Span | None]] = {}
     written = [_written(finding, model) if finding.chains else None for finding in findings]
@@ -53,7 +55,8 @@ def _written(finding: Finding, model: Model) -> Span | None:
         return None
     start, end = (document.source.offset(*at) for at in ((span.line, span.column), (span.end_line, span.end_column)))
     text = document.source.text
-    handed_on = re.fullmatch(_ATTRIBUTE, text[start:end]) or re.match(_TEXT, text[start:])
+    whole = re.fullmatch(_ATTRIBUTE, text[start:end])
+    handed_on = whole or re.fullmatch(_TAG, text[start:end]) or re.match(_TEXT, text[start:])
     found: Span | None = None
     while handed_on is not None:
         value, place, outer = value_of(model, handed_on[1], calls)
@@ -61,7 +64,7 @@ def _written(finding: Finding, model: Model) -> Span | None:
         if place is None or (is_property and not (_is_used_once(handed_on[1], model) and value.strip() and not outer)):
             return None  # a default value, or a property of several uses
         handed_on = re.fullmatch(_HANDED_ON, value)
-        if handed_on is None and "$" not in value and _is_named(value.strip(), finding.message):
+        if handed_on is None and (whole or ("$" not in value and _is_named(value.strip(), finding.message))):
             found = model.span(*place)
         if is_property:
             break
