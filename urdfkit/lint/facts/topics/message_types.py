@@ -1,7 +1,7 @@
 """Types of messages: topics that a node reads with another type than they have, and stamped velocity commands.
 
-Sources: nav2_util (twist_publisher.hpp), twist_mux (twist_mux.cpp), teleop_twist_joy (README.md), diff_drive_controller
-(userdoc.rst), robot_localization (README, Humble to Rolling).
+Sources: diff_drive_controller (userdoc.rst), robot_localization (README, Humble to Rolling), and those that
+`node_topics` names.
 """
 
 from __future__ import annotations
@@ -19,22 +19,11 @@ from urdfkit.lint.facts.nodes.names import name_of_node
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.topics.graph import published_by_type, remapped
 from urdfkit.lint.facts.topics.misspelt import mentions
+from urdfkit.lint.facts.topics.node_topics import command_topics
 from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.facts.topics.velocity_commands import drive_command_topics
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-_FLAG = "enable_stamped_cmd_vel"
-_COMMANDS = {
-    "nav2_controller": (_FLAG, ("cmd_vel",), ()),
-    "nav2_behaviors": (_FLAG, ("cmd_vel",), ()),
-    "opennav_docking": (_FLAG, ("cmd_vel",), ()),
-    "nav2_velocity_smoother": (_FLAG, ("cmd_vel_smoothed",), ("cmd_vel",)),
-    "nav2_collision_monitor": (_FLAG, ("cmd_vel_out_topic",), ("cmd_vel_in_topic",)),
-    "twist_mux": ("use_stamped", ("cmd_vel_out",), ()),
-    "teleop_twist_joy": ("publish_stamped_twist", ("cmd_vel",), ()),
-}
-"""Package → flag for stamped velocity commands, topics that its node publishes and reads; parameters end in _topic."""
 
 _DATA_TYPES = (
     *("LaserScan", "PointCloud2", "Odometry", "Imu", "Image"),
@@ -148,19 +137,20 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
         if is_read and last(kind) in ("Twist", "TwistStamped"):
             readers.append(_End(topic, last(kind) == "TwistStamped", "parameter_bridge"))
     for node in launched_nodes(model):
-        flag, written, read = _COMMANDS.get(node.package, ("", (), ()))
+        commands = command_topics().get(node.package)
+        if commands is None:
+            continue
         name = name_of_node(node) or node.program
-        for source, group in named.get(name, ()) if flag else ():
-            value = group.find(flag)
+        for source, group in named.get(name, ()) if commands.flag else ():
+            value = group.find(commands.flag)
             is_stamped = _TRUTHS.get(value.text.lower()) if value is not None else None
             if value is None or is_stamped is None:
                 continue
-            for topics, ends in ((written, publishers), (read, readers)):
-                for topic in topics:
-                    parameter = group.find(topic) if topic.endswith("_topic") else None
-                    if parameter is not None or not topic.endswith("_topic"):
-                        used = parameter.text if parameter is not None else topic
-                        ends.append(_End(remapped(node, used.strip("/")), is_stamped, name, (source, value)))
+            for topic, ends in ((commands.published, publishers), (commands.read, readers)):
+                parameter = group.find(topic) if topic.endswith("_topic") else None
+                if topic and (parameter is not None or not topic.endswith("_topic")):
+                    used = parameter.text if parameter is not None else topic
+                    ends.append(_End(remapped(node, used.strip("/")), is_stamped, name, (source, value)))
             inputs = group.find("topics") if node.package == "twist_mux" else None
             for _, entry in inputs.entries if inputs is not None else ():
                 if (used_topic := entry.find("topic")) is not None:

@@ -1,8 +1,8 @@
 """Topics that the nodes of well-known packages read and publish, under the names that launch files remap.
 
 Sources: robot_localization (ros_filter.cpp, navsat_transform.cpp), nav2_velocity_smoother (velocity_smoother.cpp),
-phidgets_drivers (phidgets_spatial/README.md, phidgets_gyroscope/README.md). The other rows were not compared with the
-sources.
+nav2_util (twist_publisher.hpp), twist_mux (twist_mux.cpp), teleop_twist_joy (README.md), phidgets_drivers
+(phidgets_spatial/README.md, phidgets_gyroscope/README.md). The other rows were not compared with the sources.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from urdfkit.record import record
 
 _TABLE = """
 amcl nav2_amcl slam_toolbox gmapping|scan:LaserScan|
-move_base|odom:Odometry|cmd_vel:Twist
+move_base|odom:Odometry|
 nav2_bt_navigator|odom:Odometry|
 octomap_server|cloud_in:PointCloud2|
-nav2_velocity_smoother|cmd_vel:Twist odom:Odometry|cmd_vel_smoothed:Twist
+nav2_velocity_smoother|odom:Odometry|
 robot_localization/ekf_node,ukf_node,ekf_localization_node,ukf_localization_node||odometry/filtered:Odometry
 robot_localization/navsat_transform_node|imu:Imu odometry/filtered:Odometry gps/fix:NavSatFix|odometry/gps:Odometry\
  gps/filtered:NavSatFix
@@ -35,7 +35,23 @@ phidgets_spatial phidgets_gyroscope||imu/data_raw:Imu
 phidgets_imu||imu/data_raw:Imu
 xsens_driver bno055 microstrain_inertial_driver um7||imu/data:Imu
 """
-"""Packages, with the programs if only some of them are meant, then topics that they read and those they publish."""
+"""Packages, with the programs if only some of them are meant, then topics that they read and those they publish.
+
+Those of velocity commands are in `_COMMANDS`.
+"""
+
+_COMMANDS = """
+move_base nav2_recoveries teleop_twist_keyboard|||cmd_vel
+nav2_behaviors nav2_controller opennav_docking|enable_stamped_cmd_vel||cmd_vel
+nav2_velocity_smoother|enable_stamped_cmd_vel|cmd_vel|cmd_vel_smoothed
+nav2_collision_monitor|enable_stamped_cmd_vel|cmd_vel_in_topic|cmd_vel_out_topic
+teleop_twist_joy|publish_stamped_twist||cmd_vel
+twist_mux|use_stamped||cmd_vel_out
+"""
+"""Packages, their flag for stamped velocity commands, the topic of velocity commands that they read, and publish.
+
+Names that end in ``_topic`` are parameters with the topic.
+"""
 
 _CAMERAS = """
 realsense2_camera depthai_ros_driver depthai_examples zed_wrapper orbbec_camera astra_camera openni2_launch
@@ -55,6 +71,32 @@ class NodeTopics:
     published: dict[str, str]
 
 
+@record(eq=False)
+class CommandTopics:
+    """Velocity commands of a node: its flag for stamped ones, and the topics or parameters for those that it has.
+
+    The texts are empty without a flag or topic.
+    """
+
+    flag: str
+    read: str
+    published: str
+
+
+@cache
+def command_topics() -> dict[str, CommandTopics]:
+    """Return package → its topics of velocity commands."""
+    rows = [row.split("|") for row in _COMMANDS.strip().splitlines()]
+    return {package: CommandTopics(*row[1:]) for row in rows for package in row[0].split()}
+
+
+@cache
+def published_commands() -> dict[str, str]:
+    """Return package → the topic on which its node publishes velocity commands, unless a parameter has it."""
+    every = command_topics().items()
+    return {package: each.published for package, each in every if not each.published.endswith("_topic")}
+
+
 @cache
 def _rows() -> dict[str, NodeTopics]:
     found: dict[str, NodeTopics] = {}
@@ -63,7 +105,11 @@ def _rows() -> dict[str, NodeTopics]:
         topics = NodeTopics(*(dict(each.split(":") for each in part.split()) for part in (read, published)))
         for node in nodes.split():
             package, _, programs = node.partition("/")
-            found |= {f"{package}/{program}": topics for program in programs.split(",")}
+            commands = command_topics().get(package)
+            own = NodeTopics(*(dict(each) for each in (topics.read, topics.published)))
+            for names, name in ((own.read, commands.read), (own.published, commands.published)) if commands else ():
+                names |= {name: "Twist"} if name else {}
+            found |= {f"{package}/{program}": own for program in programs.split(",")}
     return found
 
 

@@ -22,7 +22,7 @@ from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.topics.graph import drive_topics, remapped, remaps_groups
-from urdfkit.lint.facts.topics.node_topics import topics_of
+from urdfkit.lint.facts.topics.node_topics import published_commands, topics_of
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
@@ -58,18 +58,6 @@ _OF_ROS1 = {
 """ROS 1 package → topics of its node that launch files usually remap."""
 
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
-
-_COMMANDS = {
-    "move_base": "cmd_vel",
-    "nav2_behaviors": "cmd_vel",
-    "nav2_controller": "cmd_vel",
-    "nav2_recoveries": "cmd_vel",
-    "nav2_velocity_smoother": "cmd_vel_smoothed",
-    "teleop_twist_joy": "cmd_vel",
-    "teleop_twist_keyboard": "cmd_vel",
-    "twist_mux": "cmd_vel_out",
-}
-"""Package → the topic on which its node publishes velocity commands."""
 
 _SENDERS = ("twist_mux", "controller_server", "velocity_smoother", "teleop_node")
 """Programs whose velocity commands must reach the drive without a remapping on the command line."""
@@ -139,7 +127,7 @@ def _swapped(node: LaunchedNode) -> Iterator[tuple[Named, str]]:
 
 def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the new name and the message of each velocity topic that no node reads."""
-    nodes = [node for node in launched_nodes(model) if node.package in _COMMANDS]
+    nodes = [node for node in launched_nodes(model) if node.package in published_commands()]
     written = [(node, old, new) for node in nodes for old, new in node.remappings if _is_command(node, old)]
     drives = drive_command_topics(model) if nodes else frozenset()
     every = velocity_inputs(model) if nodes else drives
@@ -189,7 +177,7 @@ def _unmoved_outputs(
         return
     seen = {"cmd_vel"} if has_drive(model) else set[str]()
     for node in nodes:
-        topic = _COMMANDS[node.package]
+        topic = published_commands()[node.package]
         is_moved = node.has_more_remappings or any(_is_command(node, old) for old, _ in node.remappings)
         if is_moved or node.program not in _SENDERS or node.place is None or node.namespace is None:
             continue
@@ -220,9 +208,9 @@ def _in_other_namespace(node: LaunchedNode, topic: str, readers: frozenset[str])
 def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str, str]]:
     """Yield the topics of a twist_mux that nearly match a topic of velocity commands: file, value, topic, message."""
     published = set[str]()
-    for node in (each for each in launched_nodes(model) if each.package in _COMMANDS and each.package != "twist_mux"):
-        moved = {old.name.removeprefix("~").strip("/"): new.name.strip("/") for old, new in node.remappings}
-        published.add(moved.get(_COMMANDS[node.package], _COMMANDS[node.package]))
+    topics = {package: topic for package, topic in published_commands().items() if package != "twist_mux"}
+    for node in (each for each in launched_nodes(model) if each.package in topics):
+        published.add(remapped(node, topics[node.package]))
     words = Words(model)
     for source in yamls(model) if published else ():
         entries = [each for node in nodes(source) for each in node.entries]
@@ -243,7 +231,7 @@ def velocity_inputs(model: Model) -> frozenset[str]:
 
 
 def _is_command(node: LaunchedNode, old: Named) -> bool:
-    return old.name.removeprefix("~").strip("/") == _COMMANDS[node.package]
+    return old.name.removeprefix("~").strip("/") == published_commands()[node.package]
 
 
 def _mux_topics(model: Model, kinds: tuple[str, ...] = ("topics",)) -> Iterator[str]:
