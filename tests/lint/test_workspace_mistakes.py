@@ -40,6 +40,8 @@ STROKE = (
 )
 CYLINDER = "the inertia of link `left_wheel_link` is that of a cylinder with radius and length swapped"
 MISTAKES = [
+    (ARM, URDF, '"joint_2" type', '"joint_1" type', 67, "T207", "duplicate joint `joint_1`"),
+    (ARM, URDF, '"world_joint" type', '"joint_1" type', 37, "T207", "duplicate joint `joint_1`"),
     (ARM, URDF, 'xyz="0 0 0.25"', 'xyz="0 0 -0.25"', 100, "J421", OUTSIDE_PARENT),
     (ARM, URDF, '"joint_3" type="revolute"', '"joint_3" type="prismatic"', 102, "J422", STROKE),
     (

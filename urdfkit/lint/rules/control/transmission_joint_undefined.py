@@ -75,6 +75,7 @@ class TransmissionJointUndefined(RobotRule):
                     attribute="name",
                     joint=part.name,
                     names=(near,) if near else (),
+                    kind="undefined",
                     fix=new_value(model, part.element, "name", near, "unsafe", f"Replace with `{near}`")
                     if near
                     else None,

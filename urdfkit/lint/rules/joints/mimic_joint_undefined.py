@@ -86,6 +86,7 @@ class MimicJointUndefined(RobotRule):
                 fix=new_value(model, mimic.element, "joint", suggestion, "unsafe", f"Replace with `{suggestion}`")
                 if suggestion
                 else None,
+                kind="undefined",
             )
             yield from unless_masked(model, mimic.joint, suggestion, finding)
 

@@ -95,7 +95,9 @@ class MoveitNameUndefined(RobotRule):
             return
         finding = self._at(source, node, f"joint `{name}` does not exist in robot `{robot.name}`", robot.joint_by_name)
         suggestion, _ = meant(name, robot.joint_by_name)
-        yield from unless_masked(model, name, suggestion, Finding(**{**finding.__dict__, "joint": name}))
+        yield from unless_masked(
+            model, name, suggestion, Finding(**{**finding.__dict__, "joint": name, "kind": "joint"})
+        )
 
     def _near(self, source: Source, node: Node, message: str, name: str, defined: list[str]) -> Findings:
         """Yield a finding if the name is a misspelling of a defined name."""

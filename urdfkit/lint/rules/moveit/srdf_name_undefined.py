@@ -96,5 +96,6 @@ class SrdfNameUndefined(RobotRule):
             attribute=reference.attribute,
             link=name if kind == "link" else None,
             joint=name if kind == "joint" else None,
+            kind=kind,
             severity=severity_for(root, model, "warning" if tag.endswith("_collisions") else self.severity),
         )

@@ -96,11 +96,11 @@ class BridgeMisspelt(RobotRule):
             message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
             yield self.at_span(source.span(start, start + len(world)), message)
         for source, reference, message in _topic_defects(bridges, model):
-            yield self._at(source, reference, message)
+            yield self._at(source, reference, message, "topic")
 
-    def _at(self, source: Source, reference: Named, message: str) -> Finding:
+    def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
         span = source.span(reference.start, reference.start + len(reference.name))
-        return self.at_span(span, message)
+        return self.at_span(span, message, kind=kind)
 
 
 def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:

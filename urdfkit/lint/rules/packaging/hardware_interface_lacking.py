@@ -5,7 +5,7 @@ from __future__ import annotations
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
+from urdfkit.lint.facts.control.ros2_controllers import DeclaredController, Wanted
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -24,6 +24,8 @@ class HardwareInterfaceLacking(RobotRule):
     Compares the interfaces that the controllers of ros2_controllers require with the ``<command_interface>`` and
     ``<state_interface>`` elements of their joints in ``<ros2_control>``. The type and the parameters of a controller in
     YAML determine the required interfaces. Also checks the ``sensor_name`` of broadcasters for misspelt sensor names.
+
+    The joints of a controller with the same defect have one finding.
 
     Nothing is reported if arguments or another description of the package may select other hardware, or if
     ``<ros2_control>`` misspells the joint or interface, which other rules report.
@@ -136,15 +138,12 @@ class HardwareInterfaceLacking(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.fix_builders import nearest
 
-        reported: set[tuple[int, int]] = set()
+        lacking: dict[tuple[object, ...], list[Wanted]] = {}
+        reported: dict[tuple[int, int], tuple[object, ...]] = {}
         for requirement in wanted(controller):
             interfaces = hardware.get(requirement.joint)
-            position = (requirement.where.line, requirement.where.column)
-            if position in reported or (
-                interfaces is not None and requirement.interface in interfaces[requirement.is_command]
-            ):
+            if interfaces is not None and requirement.interface in interfaces[requirement.is_command]:
                 continue
-            verb = "commands" if requirement.is_command else "reads"
             if interfaces is None:
                 if requirement.joint not in model.robot.joint_by_name or not requirement.is_command:
                     continue
@@ -152,26 +151,32 @@ class HardwareInterfaceLacking(RobotRule):
                     continue
             elif requirement.interface in (meant_interface(name) for name in interfaces[requirement.is_command]):
                 continue
+            what: tuple[object, ...] = ()
+            if interfaces is not None:
+                what = (requirement.is_command, requirement.interface, *interfaces[requirement.is_command])
+            if reported.setdefault((requirement.where.line, requirement.where.column), what) == what:
+                lacking.setdefault(what, []).append(requirement)
+        for requirements in lacking.values():
+            first = requirements[0]
+            joints = tuple(dict.fromkeys(each.joint for each in requirements))
+            named = "joint" + "s" * (len(joints) > 1) + f" {', '.join(f'`{each}`' for each in joints[:4])}"
+            named += " …" * (len(joints) > 4)
+            interfaces = hardware.get(first.joint)
+            side = "command_interface" if first.is_command else "state_interface"
             if interfaces is None:
-                message = (
-                    f"<ros2_control> lacks joint `{requirement.joint}`, which controller `{controller.name}` commands"
-                )
-                help = "add the joint and its interfaces to <ros2_control>"
+                message = f"<ros2_control> lacks {named}, which controller `{controller.name}` commands"
+                help = f"add the {named.partition(' ')[0]} with the interfaces to <ros2_control>"
             else:
-                provided = ", ".join(f"`{name}`" for name in interfaces[requirement.is_command]) or "none"
-                tag = "command_interface" if requirement.is_command else "state_interface"
+                provided = ", ".join(f"`{name}`" for name in interfaces[first.is_command]) or "none"
                 near = None
-                if requirement.interface not in INTERFACES:
-                    near = nearest(requirement.interface, interfaces[requirement.is_command], cutoff=0.8)
+                if first.interface not in INTERFACES:
+                    near = nearest(first.interface, interfaces[first.is_command], cutoff=0.8)
                 message = (
-                    f"controller `{controller.name}` {verb} the {requirement.interface} interface of joint "
-                    f"`{requirement.joint}`, whose hardware provides {provided}"
-                    + Suggestion(near, requirement.interface)
+                    f"controller `{controller.name}` {'commands' if first.is_command else 'reads'} the "
+                    f"{first.interface} interface of {named}, whose hardware provides {provided}"
+                    + Suggestion(near, first.interface)
                 )
-                help = f'add <{tag} name="{requirement.interface}"/> to the hardware, or change the controller'
+                help = f'add <{side} name="{first.interface}"/> to the hardware, or change the controller'
                 help = help if near is None else f"write `{near}`"
-            reported.add(position)
-            side = "command_interface" if requirement.is_command else "state_interface"
-            span, kind = span_of(source, requirement.where), "joint" if interfaces is None else side
-            joint = requirement.joint
-            yield self.at_span(span, message, joint=joint, help=help, kind=kind)
+            span, kind = span_of(source, first.where), "joint" if interfaces is None else side
+            yield self.at_span(span, message, joint=first.joint, help=help, kind=kind, names=joints[1:])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import chain
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
@@ -103,8 +102,12 @@ class SpawnArgumentMisspelt(RobotRule):
                         span, names = source.span(start, start + len(text)), (node.program,)
                         yield self.at_span(span, message, kind="option", names=names)
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
-                of_robot = (spawned_in_the_ground(node, model), undefined_parameters(node, model), names_as_files(node))
-                for start, text, message in chain(*of_robot) if is_own else ():
+                for start, text, message in spawned_in_the_ground(node, model) if is_own else ():
+                    span = source.span(start, start + len(text))
+                    yield self.at_span(span, message, severity="warning", kind="height")
+                for start, text, message in (
+                    (*undefined_parameters(node, model), *names_as_files(node)) if is_own else ()
+                ):
                     yield self.at_span(source.span(start, start + len(text)), message, severity="warning")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (
