@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 from urdfkit.description.launch.launch_scope import LaunchContents, LaunchScope
@@ -12,26 +14,28 @@ from urdfkit.errors import UrdfkitError
 _MAX_BYTES = 100_000
 
 
-def read_launch_file(path: Path, packages: Packages) -> LaunchContents:
-    """Return the xacro commands of a launch file; files that cannot be read count as empty.
+def read_launch_file(path: Path, packages: Packages, texts: Mapping[str, str] | None = None) -> LaunchContents:
+    """Return the xacro commands and nodes of a launch file; files that cannot be read count as empty.
 
     Args:
         path: a file with a suffix of `related_files.LAUNCH`.
         packages: finds packages.
+        texts: absolute path → content to use instead of the file on disk.
     """
     found = LaunchContents(path)
-    _read(LaunchScope(path, packages, found, _read))
+    read = partial(_read, texts or {})
+    read(LaunchScope(path, packages, found, read))
     return found
 
 
-def _read(scope: LaunchScope) -> None:
+def _read(texts: Mapping[str, str], scope: LaunchScope) -> None:
     from urdfkit.description.launch.xml_launch import elements_of, read_elements
 
     path = scope.path
     try:
         if path.stat().st_size > _MAX_BYTES:
             return
-        source = read_source(path, shown_as=shown_path(path))
+        source = read_source(path, shown_as=shown_path(path), texts=texts)
         if path.suffix == ".py":
             from urdfkit.description.launch.python_constants import parsed
             from urdfkit.description.launch.python_launch import read_tree

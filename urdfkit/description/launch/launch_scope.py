@@ -1,4 +1,4 @@
-"""Arguments of a launch file while it is read, and the xacro commands and packages found in it."""
+"""Arguments and namespace of a launch file while it is read, and the xacro commands, packages and nodes found in it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import os
 import shlex
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.resolver import Packages
@@ -37,9 +38,64 @@ class XacroCommand:
     arguments: Mapping[str, str]
 
 
+class PlacedText(NamedTuple):
+    """An evaluated text, with the line and the column in its launch file, from 1."""
+
+    text: str
+    line: int
+    column: int
+
+
+@record(eq=False)
+class LaunchNode:
+    """A node that a launch file starts; texts contain `UNKNOWN` for each computed part.
+
+    Attributes:
+        path: the launch file.
+        line: line of the action in it, from 1.
+        column: column of the action, from 1.
+        package: package of the node.
+        program: its executable.
+        name: its name; empty if it has none.
+        namespace: its namespace with those of the groups and includes around it, without slashes at its ends.
+        arguments: its command line arguments.
+        remappings: old name → new name.
+        files: its parameter files that were found, with the namespace that the launch file puts around their contents.
+        is_open: whether it can have further arguments, parameters or remappings.
+        is_skipped: whether it does not start with these launch arguments.
+        spaced_at: file, line and column of the innermost namespace, or of the action.
+    """
+
+    path: Path
+    line: int
+    column: int
+    package: str
+    program: str
+    name: str
+    namespace: str
+    arguments: tuple[PlacedText, ...] = ()
+    remappings: Mapping[str, str] = field(default_factory=dict)
+    files: tuple[tuple[Path, str], ...] = ()
+    is_open: bool = False
+    is_skipped: bool = False
+    spaced_at: tuple[Path, int, int] | None = None
+
+
+@record(eq=False)
+class LoadedParameters:
+    """A YAML file that a ROS 1 launch file loads, and the namespace of its contents; see `LaunchNode`."""
+
+    path: Path
+    line: int
+    column: int
+    file: Path
+    namespace: str
+    is_skipped: bool
+
+
 @record(eq=False)
 class LaunchContents:
-    """Xacro commands and packages of a launch file and of the files it includes.
+    """Xacro commands, packages and nodes of a launch file and of the files it includes.
 
     Attributes:
         path: the launch file.
@@ -47,6 +103,9 @@ class LaunchContents:
         started: packages whose nodes or launch files it starts, and programs it executes.
         included: the launch files it includes, directly or indirectly.
         descriptions: launch argument → its description.
+        nodes: its nodes, also those that do not start with these launch arguments.
+        loaded: the YAML files that it loads in ROS 1.
+        outside: package of each included launch file that was not found, and the namespace.
     """
 
     path: Path
@@ -54,6 +113,9 @@ class LaunchContents:
     started: set[str] = field(default_factory=set)
     included: list[Path] = field(default_factory=list)
     descriptions: dict[str, str] = field(default_factory=dict)
+    nodes: list[LaunchNode] = field(default_factory=list)
+    loaded: list[LoadedParameters] = field(default_factory=list)
+    outside: list[tuple[str, str]] = field(default_factory=list)
 
 
 class LaunchScope:
@@ -66,6 +128,11 @@ class LaunchScope:
         read: reads an included file.
         arguments: values of arguments from the including file.
         depth: number of including files.
+
+    Attributes:
+        namespace: namespace of the actions that are read, without slashes at its ends.
+        is_skipped: whether these actions do not start with these arguments.
+        spaced_at: file, line and column of the innermost namespace; None without one.
     """
 
     def __init__(
@@ -79,6 +146,8 @@ class LaunchScope:
     ) -> None:
         self.path, self.packages, self.found, self._read, self._depth = path, packages, found, read, depth
         self.arguments = dict(arguments or {})
+        self.namespace, self.is_skipped = "", False
+        self.spaced_at: tuple[Path, int, int] | None = None
 
     def declare(self, name: str, default: str, description: str = "") -> None:
         """Declare an argument, whose default applies unless the including file gives a value."""
@@ -107,7 +176,7 @@ class LaunchScope:
 
     def start(self, package: str) -> None:
         """Record a package whose node is started, or a program that is executed."""
-        if package and UNKNOWN not in package:
+        if package and UNKNOWN not in package and not self.is_skipped:
             self.found.started.add(package)
 
     def command(self, text: str) -> None:
@@ -124,22 +193,30 @@ class LaunchScope:
 
     def expansion(self, file: str, arguments: Mapping[str, str]) -> None:
         """Record the expansion of a file with arguments; computed arguments are ignored."""
-        if (description := self._file(file)) is not None:
+        if not self.is_skipped and (description := self.file(file)) is not None:
             values = {name: self.constant(value) for name, value in arguments.items() if UNKNOWN not in name}
             written = {name: value for name, value in values.items() if value is not None}
             self.found.commands.append(XacroCommand(description, written))
 
     def include(self, file: str, arguments: Mapping[str, str]) -> None:
         """Read an included launch file with these arguments."""
-        if file.startswith(_SHARE[0]):
-            self.start(file[1:].partition(_SHARE[1])[0])
-        path = self._file(file)
+        package = file[1:].partition(_SHARE[1])[0] if file.startswith(_SHARE[0]) else ""
+        self.start(package)
+        path = self.file(file)
         if path is None or self._depth >= _MAX_DEPTH or len(self.found.included) >= _MAX_FILES:
+            self.found.outside.append((package, self.namespace))
             return
         self.found.included.append(path)
-        self._read(LaunchScope(path, self.packages, self.found, self._read, arguments, self._depth + 1))
+        scope = LaunchScope(path, self.packages, self.found, self._read, arguments, self._depth + 1)
+        scope.namespace, scope.is_skipped, scope.spaced_at = self.namespace, self.is_skipped, self.spaced_at
+        self._read(scope)
 
-    def _file(self, text: str) -> Path | None:
+    def below(self, namespace: str) -> str:
+        """Return a namespace inside the current one, without slashes at its ends."""
+        outer = "" if namespace.startswith("/") else self.namespace
+        return f"{outer}/{namespace.strip('/')}".strip("/")
+
+    def file(self, text: str) -> Path | None:
         """Return the file at a path; None if the path is computed or no file has it."""
         constant = self.constant(text)
         if constant is None or not os.path.isabs(constant):  # noqa: PTH117 - may hold any character

@@ -4,15 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 from urdfkit.description.control.settings import Settings
-from urdfkit.description.launch.launch_scope import MAX_TEXT, UNKNOWN, LaunchScope, is_false, is_true
+from urdfkit.description.launch.launch_scope import (
+    MAX_TEXT,
+    UNKNOWN,
+    LaunchNode,
+    LaunchScope,
+    LoadedParameters,
+    PlacedText,
+    is_false,
+    is_true,
+)
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin
 
 _SUBSTITUTION = re.compile(r"\$\(\s*([\w-]+)([^$()]*)\)")
 _COMMAND = re.compile(r"\$\(\s*command\s+(?:'([^']*)'|\"([^\"]*)\"|([^'\"].*)\))", re.DOTALL)
 _MAX_SUBSTITUTIONS = 100
+_NODES = ("node", "lifecycle_node", "node_container")
 
 
 def read_elements(elements: list[Element], scope: LaunchScope) -> None:
@@ -22,32 +33,92 @@ def read_elements(elements: list[Element], scope: LaunchScope) -> None:
         elements: the actions.
         scope: its arguments, and the record of its contents.
     """
+    outer = scope.namespace, scope.is_skipped, scope.spaced_at
     for element in elements:
-        if is_false(_text(element, "if", scope)) or is_true(_text(element, "unless", scope)):
-            continue
+        scope.is_skipped = outer[1] or is_false(_text(element, "if", scope)) or is_true(_text(element, "unless", scope))
         tag, name = element.tag, element.get("name") or ""
-        if tag in ("arg", "let") and "value" in element.attributes:
+        if tag in ("push_ros_namespace", "push-ros-namespace"):
+            if not scope.is_skipped:
+                scope.namespace, scope.spaced_at = scope.below(_text(element, "namespace", scope)), _at(element, scope)
+            continue
+        namespace = scope.namespace, scope.spaced_at
+        if space := _text(element, "ns", scope) or (_text(element, "namespace", scope) if tag in _NODES else ""):
+            scope.namespace, scope.spaced_at = scope.below(space), _at(element, scope)
+        _read_element(element, tag, name, scope)
+        scope.namespace, scope.spaced_at = namespace
+    scope.namespace, scope.is_skipped, scope.spaced_at = outer
+
+
+def _at(element: Element, scope: LaunchScope) -> tuple[Path, int, int]:
+    position = element.origin.position
+    return scope.path, position.line, position.column
+
+
+def _read_element(element: Element, tag: str, name: str, scope: LaunchScope) -> None:
+    """Read an action whose namespace is that of the scope."""
+    if tag in ("arg", "let") and "value" in element.attributes:
+        if not scope.is_skipped:
             scope.arguments[name] = _text(element, "value", scope)
-        elif tag == "arg":
-            default = _text(element, "default", scope) if "default" in element.attributes else UNKNOWN
-            scope.declare(name, default, element.get("description") or element.get("doc") or "")
-        elif tag == "include":
-            scope.include(_text(element, "file", scope), dict(_included_arguments(element, scope)))
-        elif tag == "param":
-            if "command" in element.attributes:
-                scope.command(_text(element, "command", scope))
-            for found in _COMMAND.finditer(element.get("value") or ""):
-                scope.command(_substituted(next(text for text in found.groups() if text is not None), scope))
-        elif tag == "executable":
-            for program in _text(element, "cmd", scope).split()[:1]:
-                scope.start(program)
-        elif tag in ("node", "group", "launch", "node_container", "composable_node"):
-            scope.start(_text(element, "pkg", scope))
-            read_elements(element.children, scope)
+    elif tag == "arg":
+        default = _text(element, "default", scope) if "default" in element.attributes else UNKNOWN
+        scope.declare(name, default, element.get("description") or element.get("doc") or "")
+    elif tag == "include":
+        scope.include(_text(element, "file", scope), dict(_included_arguments(element, scope)))
+    elif tag == "param":
+        if "command" in element.attributes:
+            scope.command(_text(element, "command", scope))
+        for found in _COMMAND.finditer(element.get("value") or ""):
+            scope.command(_substituted(next(text for text in found.groups() if text is not None), scope))
+    elif tag == "executable":
+        for program in _text(element, "cmd", scope).split()[:1]:
+            scope.start(program)
+    elif tag == "rosparam":
+        _load(element, scope)
+    elif tag in (*_NODES, "group", "launch", "composable_node"):
+        scope.start(_text(element, "pkg", scope))
+        if tag in _NODES:
+            scope.found.nodes.append(_node(element, scope))
+            scope.namespace = f"{scope.namespace}/{_text(element, 'name', scope)}"  # of private parameters
+        read_elements(element.children, scope)
+
+
+def _node(element: Element, scope: LaunchScope) -> LaunchNode:
+    position = element.origin.position
+    words = (_text(element, "args", scope) or _text(element, "ros_args", scope)).split()
+    children = [child for child in element.children if child.tag in ("remap", "param", "rosparam")]
+    paths = [_text(child, "from", scope) for child in children if child.tag == "param" and "from" in child.attributes]
+    files = [scope.file(path) for path in paths]
+    return LaunchNode(
+        scope.path,
+        position.line,
+        position.column,
+        _text(element, "pkg", scope),
+        _text(element, "exec" if "exec" in element.attributes else "type", scope),
+        _text(element, "name", scope),
+        scope.namespace,
+        tuple(PlacedText(word, position.line, position.column) for word in words),
+        {_text(child, "from", scope): _text(child, "to", scope) for child in children if child.tag == "remap"},
+        tuple((file, "") for file in files if file is not None),
+        None in files,
+        scope.is_skipped,
+        scope.spaced_at,
+    )
+
+
+def _load(element: Element, scope: LaunchScope) -> None:
+    """Record a YAML file that ``<rosparam>`` loads."""
+    file = scope.file(_text(element, "file", scope)) if "file" in element.attributes else None
+    if file is not None and (element.get("command") or "load") == "load":
+        space, position = scope.namespace, element.origin.position
+        if "param" in element.attributes:
+            space = scope.below(_text(element, "param", scope))
+        loaded = LoadedParameters(scope.path, position.line, position.column, file, space.strip("/"), scope.is_skipped)
+        scope.found.loaded.append(loaded)
 
 
 def _included_arguments(element: Element, scope: LaunchScope) -> Iterator[tuple[str, str]]:
-    if is_true(element.get("pass_all_args") or ""):
+    is_ros2 = "$(find-pkg-share" in (element.get("file") or "")  # its included files see all launch configurations
+    if is_ros2 or is_true(element.get("pass_all_args") or ""):
         yield from scope.arguments.items()
     for child in element.children:
         if child.tag in ("arg", "let") and "value" in child.attributes:

@@ -122,10 +122,14 @@ def name_of_node(node: LaunchedNode) -> str:
     return "" if node.has_name else _DEFAULTS.get((node.package, node.program), "")
 
 
-def _default(node: LaunchedNode) -> str:
+def default_name(package: str, program: str) -> str:
     """Return the name that a released node has by default; empty if unknown."""
-    is_navigation = node.program in NODES and node.package.startswith("nav2_")
-    return node.program if is_navigation else _DEFAULTS.get((node.package, node.program), "")
+    is_navigation = program in NODES and package.startswith("nav2_")
+    return program if is_navigation else _DEFAULTS.get((package, program), "")
+
+
+def _default(node: LaunchedNode) -> str:
+    return default_name(node.package, node.program)
 
 
 def _span(node: LaunchedNode) -> Span:

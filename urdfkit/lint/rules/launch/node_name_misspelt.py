@@ -10,7 +10,8 @@ class NodeNameMisspelt(RobotRule):
     Compares the names of nodes in ROS 2 launch files with the sections of the parameter files that these nodes load,
     and with the ``node_names`` of lifecycle managers. The rule reports names that differ by one letter, and files whose
     only section belongs to another node. Files with ``/**`` are not checked, because their parameters apply to every
-    node. In ROS 1, the rule reports nodelets whose manager has another name.
+    node. Also reports nodes whose only section is in another namespace, with the namespaces of groups and includes. In
+    ROS 1, the rule reports nodelets whose manager has another name.
 
     ## Why is this bad?
     The node starts without its parameters and without an error. A lifecycle manager waits for a node that never
@@ -43,11 +44,14 @@ class NodeNameMisspelt(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each name without its counterpart."""
+        from urdfkit.lint.facts.connections.parameter_sections import sections_elsewhere
         from urdfkit.lint.facts.nodes.names import misnamed
         from urdfkit.lint.facts.nodes.nodelets import unmanaged_nodelets
 
         for _, span, message in misnamed(model):
             yield self.at_span(span, message)
+        for span, message in sections_elsewhere(model):
+            yield self.at_span(span, message, kind="namespace")
         for source, manager, message in unmanaged_nodelets(model):
             start = manager.start + len(manager.name) - len(manager.name.rpartition("/")[2])
             yield self.at_span(source.span(start, manager.start + len(manager.name)), message)

@@ -49,8 +49,9 @@ class SpawnArgumentMisspelt(RobotRule):
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) and
     ``spawner`` (controller_manager) for misspelt options, for options of another spawner, and for misspellings of
     the topic or parameter ``robot_description`` and of joints, and for its name in place of a file. The spawners of
-    Gazebo Classic need a source of the description. Also reports a controller manager or a description in a namespace
-    if the launch file starts the robot and no file names a namespace.
+    Gazebo Classic need a source of the description. Also reports a ``spawner`` that names another controller manager
+    than the launch files and the plugins of the robot start, and a description in a namespace if the launch file starts
+    the robot and no file names a namespace.
 
     Python launch files are parsed, not executed.
 
@@ -77,6 +78,7 @@ class SpawnArgumentMisspelt(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid argument."""
+        from urdfkit.lint.facts.connections.controller_managers import misdirected_spawners
         from urdfkit.lint.facts.control.launched_nodes import launches, started
         from urdfkit.lint.facts.gazebo.spawned_models import (
             names_as_files,
@@ -85,13 +87,19 @@ class SpawnArgumentMisspelt(RobotRule):
         )
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
 
-        for source in launches(model):
+        files = list(launches(model))
+        places = set[tuple[str, int]]()
+        for span, message in misdirected_spawners(model) if any("spawner" in each.text for each in files) else ():
+            places.add((span.file, span.line))
+            yield self.at_span(span, message, severity="warning", kind="manager")
+        for source in files:
             if not any(package in source.text for package in (*_PACKAGES, "controller_manager")):
                 continue
             reported: set[int] = set()
             for node in started(source):
                 for word in _in_unknown_namespaces(node, source, model):
-                    if word.start in reported:  # a function of the launch file starts several nodes
+                    is_found = (source.file, source.position(word.start).line) in places
+                    if word.start in reported or is_found:  # a function of the launch file starts several nodes
                         continue
                     reported.add(word.start)
                     message = f"no node of these packages is in the namespace of `{word.name}`"

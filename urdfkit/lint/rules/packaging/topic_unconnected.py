@@ -13,6 +13,9 @@ class TopicUnconnected(RobotRule):
     ``nav2_velocity_smoother`` that subscribe to the topic on which they publish, two equal nodes of a launch file that
     publish on one topic, and drivers with swapped names in a remapping.
 
+    The launch files are read with the files that they include. Reports nodes that publish or subscribe to
+    ``robot_description`` or ``joint_states`` in another namespace than the other nodes of the launch.
+
     Velocity commands of these nodes and of Nav2 are reported if no other file of the packages names their topic,
     although a ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
 
@@ -36,6 +39,7 @@ class TopicUnconnected(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
+        from urdfkit.lint.facts.connections.namespaces import nodes_apart
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.loops import published_together, self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
@@ -54,6 +58,8 @@ class TopicUnconnected(RobotRule):
         for node, message, _ in published_together(model):
             if node.place is not None:
                 yield self.at_span(node.source.span(*node.place), message)
+        for span, message in nodes_apart(model):
+            yield self.at_span(span, message, kind="namespace")
         for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
         for source, value, near, message in unfed_mux_topics(model):

@@ -1,0 +1,4 @@
+"""Connections between the nodes that the launch files of a workspace start together, in their namespaces.
+
+Input: the nodes of launch files with their evaluated namespaces; output: nodes that do not reach each other.
+"""
