@@ -103,7 +103,7 @@ class LaunchContents:
         started: packages whose nodes or launch files it starts, and programs it executes.
         included: the launch files it includes, directly or indirectly.
         descriptions: launch argument → its description.
-        nodes: its nodes, also those that do not start with these launch arguments.
+        nodes: its nodes, including nodes that these launch arguments do not start.
         loaded: the YAML files that it loads in ROS 1.
         outside: package of each included launch file that was not found, and the namespace.
     """

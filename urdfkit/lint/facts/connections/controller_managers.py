@@ -15,7 +15,7 @@ from urdfkit.description.launch.launch_scope import UNKNOWN, LaunchContents, Lau
 from urdfkit.description.xml.source import Span
 from urdfkit.lint.facts.connections.trees import (
     full_name,
-    is_known,
+    is_constant,
     is_ros1,
     launch_trees,
     place_of,
@@ -33,7 +33,15 @@ _PLUGIN = "ros2_control"
 _OTHERS = r"webots|mujoco|isaac|unity|controller_manager::ControllerManager"
 """Matches files of workspaces in which another program can contain a controller manager."""
 
-KNOWN = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo", "ros_gz_bridge", "nav2_bringup", "slam_toolbox", "rviz2")
+WITHOUT_MANAGER = (
+    "gazebo_ros",
+    "ros_gz_sim",
+    "ros_ign_gazebo",
+    "ros_gz_bridge",
+    "nav2_bringup",
+    "slam_toolbox",
+    "rviz2",
+)
 """Packages whose launch files start no controller manager."""
 
 
@@ -45,7 +53,7 @@ def misdirected_spawners(model: Model) -> Iterator[tuple[Span, str]]:
     of_plugins = _of_plugins(model)
     trees = [(tree, _managers(tree)) for tree in launch_trees(model) if not is_ros1(tree, model)]
     every = [name for _, managers in trees for name in managers]
-    if of_plugins is None or not all(is_known(name) for name in every) or _may_have_others(model):
+    if of_plugins is None or not all(is_constant(name) for name in every) or _may_have_others(model):
         return
     seen = set[tuple[str, int]]()
     for tree, managers in trees:
@@ -105,7 +113,7 @@ def _managers(tree: LaunchContents) -> dict[str, LaunchNode]:
 
 def _may_have_others(model: Model) -> bool:
     """Return whether another program can start a controller manager."""
-    if any(package not in KNOWN for tree in launch_trees(model) for package, _ in tree.outside):
+    if any(package not in WITHOUT_MANAGER for tree in launch_trees(model) for package, _ in tree.outside):
         return True
     texts = (each.text for each in (*model.expanded.sources.values(), *model.related_files.values()))
     return any(re.search(_OTHERS, text) for text in texts)
@@ -131,13 +139,13 @@ def _of_plugins(model: Model) -> frozenset[str] | None:
 
 def manager_of(node: LaunchNode) -> PlacedText | None:
     """Return the controller manager that a spawner names, or its default; None if it is computed."""
-    if node.is_open or not is_known(node.namespace) or any(_is_moved(word.text) for word in node.arguments):
+    if node.is_open or not is_constant(node.namespace) or any(_is_moved(word.text) for word in node.arguments):
         return None
     for before, word in zip(("", *(each.text for each in node.arguments)), node.arguments, strict=False):
         if before in _OPTIONS or word.text.startswith("--controller-manager="):
             wanted = PlacedText(word.text.rpartition("=")[2], word.line, word.column)
-            return wanted if is_known(word.text) and wanted.text else None
-    is_complete = all(is_known(word.text) for word in node.arguments)
+            return wanted if is_constant(word.text) and wanted.text else None
+    is_complete = all(is_constant(word.text) for word in node.arguments)
     return PlacedText(_DEFAULT, node.line, node.column) if is_complete else None
 
 

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 
 from urdfkit.description.launch.launch_scope import UNKNOWN, LaunchContents, LaunchNode
 from urdfkit.description.xml.source import Span
-from urdfkit.lint.facts.connections.controller_managers import KNOWN, manager_of
-from urdfkit.lint.facts.connections.trees import full_name, is_known, is_ros1, launch_trees, place_of
+from urdfkit.lint.facts.connections.controller_managers import WITHOUT_MANAGER, manager_of
+from urdfkit.lint.facts.connections.trees import full_name, is_constant, is_ros1, launch_trees, place_of
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.model.model import Model
@@ -42,7 +42,7 @@ _OTHERS = "joint_state_publisher"
 
 
 @record(eq=False)
-class _End:
+class _Connection:
     """A publisher or subscriber of a topic.
 
     Attributes:
@@ -56,52 +56,54 @@ class _End:
     is_renamed: bool = False
 
 
-def nodes_apart(model: Model) -> Iterator[tuple[Span, str]]:
+def separated_nodes(model: Model) -> Iterator[tuple[Span, str]]:
     """Yield place and message of each node whose topic another node has in another namespace."""
     seen = set[tuple[str, int]]()
     for base in ("robot_description", "joint_states"):
         trees = [(tree, _publishers(tree, base)) for tree in launch_trees(model)]
         every = {end.topic for _, publishers in trees for end in publishers}
-        is_computed = not all(is_known(topic) and topic.endswith(base) for topic in every)
+        is_computed = not all(is_constant(topic) and topic.endswith(base) for topic in every)
         if not every or is_computed or (base == "joint_states" and _is_simulated(model)):
             continue
         for tree, publishers in trees:
-            is_open = any(package not in KNOWN for package, _ in tree.outside)
+            is_open = any(package not in WITHOUT_MANAGER for package, _ in tree.outside)
             is_param = base == "robot_description" and is_ros1(tree, model)
             readers = list(_readers(tree, base)) if publishers and not is_open and not is_param else []
             for reader in readers:
                 is_own = reader.is_renamed and reader.topic in every
-                if not is_known(reader.topic) or not reader.topic.endswith(base) or is_own:
+                if not is_constant(reader.topic) or not reader.topic.endswith(base) or is_own:
                     continue
                 if all(end.topic != reader.topic for end in publishers):
-                    blamed, message = _message(tree, publishers, reader)
-                    span = place_of(blamed.node, model)
+                    wrong, message = _message(tree, publishers, reader)
+                    span = place_of(wrong.node, model)
                     if span is not None and (span.file, span.line) not in seen:
                         seen.add((span.file, span.line))
                         yield span, message
 
 
-def _message(tree: LaunchContents, publishers: list[_End], reader: _End) -> tuple[_End, str]:
+def _message(tree: LaunchContents, publishers: list[_Connection], reader: _Connection) -> tuple[_Connection, str]:
     """Return the end whose node or topic is the other than most, and the message."""
     spaces = Counter(node.namespace for node in tree.nodes)
     first = min(publishers, key=lambda end: end.node.is_skipped)
     is_rare = spaces[first.node.namespace] < spaces[reader.node.namespace]
     is_other = len(publishers) == 1 and not reader.is_renamed and (is_rare or first.is_renamed)
-    blamed, other = (first, reader) if is_other else (reader, first)
+    wrong, other = (first, reader) if is_other else (reader, first)
     own, far = ("publishes", "subscribes to") if is_other else ("subscribes to", "publishes")
-    message = f"`{blamed.node.program}` {own} `/{blamed.topic}`, but `{other.node.program}` {far} `/{other.topic}`"
-    return blamed, message + "; start both in one namespace"
+    message = f"`{wrong.node.program}` {own} `/{wrong.topic}`, but `{other.node.program}` {far} `/{other.topic}`"
+    return wrong, message + "; start both in one namespace"
 
 
-def _publishers(tree: LaunchContents, base: str) -> list[_End]:
-    found = [_end(node, base) for node in tree.nodes if base in _PUBLISHED.get(node.package, ())]
+def _publishers(tree: LaunchContents, base: str) -> list[_Connection]:
+    found = [_connection(node, base) for node in tree.nodes if base in _PUBLISHED.get(node.package, ())]
     spawners = [node for node in tree.nodes if node.package == "controller_manager" and base == "joint_states"]
     is_renamed = any(base in {old.strip("/") for old in node.remappings} for node in spawners)
     for node in spawners:
         if any(re.fullmatch(_BROADCASTERS, word.text) for word in node.arguments):
             manager = manager_of(node)
-            name = full_name(node, manager.text) if manager is not None and not is_renamed else UNKNOWN
-            found.append(_End(node, f"{name.rpartition('/')[0]}/{base}".strip("/") if is_known(name) else UNKNOWN))
+            topic = UNKNOWN
+            if manager is not None and not is_renamed:
+                topic = f"{full_name(node, manager.text).rpartition('/')[0]}/{base}".strip("/")
+            found.append(_Connection(node, topic))
     return found
 
 
@@ -111,18 +113,18 @@ def _is_simulated(model: Model) -> bool:
     return is_bridged or any(_OTHERS in (plugin.filename or "") for plugin, _, _ in plugins(model.robot))
 
 
-def _readers(tree: LaunchContents, base: str) -> Iterator[_End]:
+def _readers(tree: LaunchContents, base: str) -> Iterator[_Connection]:
     for node in tree.nodes:
         if base in _READ.get(node.package, ()) and not node.is_open:
-            yield _end(node, base)
+            yield _connection(node, base)
         elif base == "robot_description" and node.program in _SPAWNERS:
             for before, word in zip(node.arguments, node.arguments[1:], strict=False):
                 if before.text == "-topic":
-                    yield _End(node, full_name(node, word.text), word.text != base)
+                    yield _Connection(node, full_name(node, word.text), word.text != base)
         elif node.program == "ros2_control_node" and (new := node.remappings.get(f"~/{base}")) is not None:
-            yield _End(node, full_name(node, new), True)
+            yield _Connection(node, full_name(node, new), True)
 
 
-def _end(node: LaunchNode, topic: str) -> _End:
+def _connection(node: LaunchNode, topic: str) -> _Connection:
     names = {old.strip("/"): new for old, new in node.remappings.items()}
-    return _End(node, full_name(node, names.get(topic, topic)), topic in names)
+    return _Connection(node, full_name(node, names.get(topic, topic)), topic in names)

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from urdfkit.description.launch.launch_scope import LaunchContents, LaunchNode
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Source, Span
-from urdfkit.lint.facts.connections.trees import full_name, is_known, launch_trees, place_of
+from urdfkit.lint.facts.connections.trees import full_name, is_constant, launch_trees, place_of
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, span_of
 from urdfkit.lint.facts.nodes.names import default_name
@@ -52,11 +52,11 @@ def _readers(tree: LaunchContents, model: Model) -> Iterator[tuple[LaunchContent
         is_manager = (node.package, node.program) == (_MANAGER, "ros2_control_node")
         base = node.name or (_MANAGER if is_manager else default_name(node.package, node.program))
         is_renamed = any(re.search(r"__n\w+:=", word.text) for word in node.arguments)
-        if not base or is_renamed or not is_known(f"{base}{node.namespace}"):
+        if not base or is_renamed or not is_constant(f"{base}{node.namespace}"):
             continue
         for file, root in node.files:
             source = model.related_files.get(shown_path(file))
-            if source is None or PARAMETERS not in source.text or not is_known(root):
+            if source is None or PARAMETERS not in source.text or not is_constant(root):
                 continue
             yield tree, node, full_name(node, base), source, root
             if is_manager:

@@ -34,7 +34,7 @@ def full_name(node: LaunchNode, name: str) -> str:
     return name.strip("/") if name.startswith("/") else f"{node.namespace}/{name}".strip("/")
 
 
-def is_known(text: str) -> bool:
+def is_constant(text: str) -> bool:
     """Return whether a text of a launch file has no computed part."""
     return UNKNOWN not in text
 

@@ -73,7 +73,7 @@ class NodeTopics:
 
 @record(eq=False)
 class CommandTopics:
-    """Velocity commands of a node: its flag for stamped ones, and the topics or parameters for those that it has.
+    """Velocity commands of a node: its flag for stamped ones, and the topics or parameters of these commands.
 
     The texts are empty without a flag or topic.
     """

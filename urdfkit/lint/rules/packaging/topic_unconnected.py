@@ -39,7 +39,7 @@ class TopicUnconnected(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
-        from urdfkit.lint.facts.connections.namespaces import nodes_apart
+        from urdfkit.lint.facts.connections.namespaces import separated_nodes
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.loops import published_together, self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
@@ -58,7 +58,7 @@ class TopicUnconnected(RobotRule):
         for node, message, _ in published_together(model):
             if node.place is not None:
                 yield self.at_span(node.source.span(*node.place), message)
-        for span, message in nodes_apart(model):
+        for span, message in separated_nodes(model):
             yield self.at_span(span, message, kind="namespace")
         for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
