@@ -67,7 +67,7 @@ def _readers(tree: LaunchContents, model: Model) -> Iterator[tuple[LaunchContent
 def _sections(source: Source, root: str) -> list[tuple[Node, str]]:
     """Return the key and the full name of each section, without slashes at its ends."""
     found: list[tuple[Node, str]] = []
-    waiting = [(key, value, root) for document in documents(source)[0] for key, value in document.entries]
+    waiting = [(key, value, root) for document in documents(source) for key, value in document.entries]
     while waiting:
         key, value, above = waiting.pop(0)
         path = f"{above}/{key.text.strip('/')}".strip("/")

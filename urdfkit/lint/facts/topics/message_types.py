@@ -1,7 +1,7 @@
 """Types of messages: topics that a node reads with another type than they have, and stamped velocity commands.
 
-Sources: diff_drive_controller (userdoc.rst), robot_localization (README, Humble to Rolling), and those that
-`node_topics` names.
+Sources: diff_drive_controller (userdoc.rst), robot_localization (README, Humble to Rolling), and the sources of
+`node_topics`.
 """
 
 from __future__ import annotations
