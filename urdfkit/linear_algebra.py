@@ -1,4 +1,4 @@
-"""Products, norms and inverses of small matrices, to the same bytes on every processor.
+"""Products, norms and inverses of small matrices, and rotations of quaternions, to the same bytes on every processor.
 
 numpy's ``@``, ``dot``, ``linalg.norm`` of one vector, ``linalg.inv`` and ``linalg.eigh`` call OpenBLAS, which sums in
 another order, or with fused multiply-add, depending on the processor. ``einsum`` does not.
@@ -36,6 +36,17 @@ def inverse_placement(placement: Array) -> Array:
     inverse[:3, :3] = placement[:3, :3].T
     inverse[:3, 3] = -matmul(placement[:3, :3].T, placement[:3, 3])
     return inverse
+
+
+def rotations(quaternions: Array) -> Array:
+    """Return rotation matrices of unit quaternions x y z w; shape (N, 3, 3)."""
+    x, y, z, w = quaternions.T
+    rows = (
+        *(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+        *(2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+        *(2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
+    )
+    return np.stack(rows, axis=1).reshape(-1, 3, 3)
 
 
 def symmetric_eigen(matrix: ArrayLike) -> tuple[Array, Array]:

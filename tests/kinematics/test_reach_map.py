@@ -12,9 +12,9 @@ from tests.kinematics.arms import PANDA, UR5, Reference, errors, robot_or_skip
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics import Chain, ReachMap, reach_map
 from urdfkit.kinematics.reach import cone_orientations, down_orientations, uniform_orientations
-from urdfkit.kinematics.reach.orientations import rotations
 from urdfkit.kinematics.reach.pose_grid import PoseGrid
 from urdfkit.kinematics.self_collision.configuration_check import ConfigurationCheck
+from urdfkit.linear_algebra import rotations
 
 BUNDLED = ("seven_dof_arm", "world", "grasping_frame")
 ARMS = {"panda": PANDA, "ur5": UR5, "bundled": BUNDLED}

@@ -12,7 +12,7 @@ from urdfkit.kinematics.serial.rigid_placement import (
     compose,
     invert,
     placement_of,
-    rotation_of_quaternion,
+    placement_of_quaternion,
     rotation_to,
     turned,
 )
@@ -27,13 +27,13 @@ def matrix(placement: Placement) -> np.ndarray:
 
 
 def random_placement() -> Placement:
-    return [*rotation_of_quaternion(RANDOM.normal(size=4)), *RANDOM.normal(size=3)]
+    return placement_of_quaternion(RANDOM.normal(size=3), RANDOM.normal(size=4))
 
 
 def test_quaternions_need_not_be_normalised() -> None:
     for quaternion in RANDOM.normal(size=(9, 4)):
         expected = pinocchio.Quaternion(quaternion / np.linalg.norm(quaternion)).toRotationMatrix()
-        assert np.reshape(rotation_of_quaternion(quaternion), (3, 3)) == pytest.approx(expected)
+        assert matrix(placement_of_quaternion((0.0, 0.0, 0.0), quaternion))[:3, :3] == pytest.approx(expected)
 
 
 def test_products_and_inverses() -> None:

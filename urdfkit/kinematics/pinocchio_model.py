@@ -86,9 +86,7 @@ def spatial_inertia(link: Link) -> Any:
     inertial = link.inertial
     if inertial is None:
         return pin.Inertia.Zero()
-    tensor = np.zeros((3, 3))
-    if (i := inertial.inertia) is not None:
-        tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    tensor = np.zeros((3, 3)) if inertial.inertia is None else np.array(inertial.inertia.rows)
     placement = placement_of(inertial.origin)
     R = placement.rotation
     try:

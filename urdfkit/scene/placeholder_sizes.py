@@ -70,9 +70,7 @@ class PlaceholderSizes:
         none, own = np.zeros((0, 3)), link.inertial
         if own is None or own.inertia is None or not own.mass or own.mass < 0.0:
             return none
-        i = own.inertia
-        tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
-        moments, axes = symmetric_eigen(tensor)
+        moments, axes = symmetric_eigen(own.inertia.rows)
         squares = 6.0 / own.mass * (moments.sum() - 2.0 * moments)  # of a box: I₁ = m/12·(b² + c²), …
         low, high = self._to_joints(link.name)
         largest = _LARGEST * (float((high - low).max()) + self._length) if self._robot.joints else np.inf

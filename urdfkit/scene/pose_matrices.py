@@ -3,21 +3,15 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from urdfkit.description.urdf.geometry import rotation_of
 from urdfkit.description.urdf.robot import Pose
-from urdfkit.linear_algebra import Array
+from urdfkit.linear_algebra import Array, rotations
 
 
 def pose_matrix(pose: Pose) -> Array:
     """Return an ``<origin>`` as a matrix: translation and Rz(yaw)·Ry(pitch)·Rx(roll); shape (4, 4), read-only."""
-    roll, pitch, yaw = pose.rpy
-    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
-    cy, sy = np.cos(yaw), np.sin(yaw)
     matrix = np.eye(4)
-    matrix[:3, :3] = (
-        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-        (-sp, cp * sr, cp * cr),
-    )
+    matrix[:3, :3] = rotation_of(pose.rpy)
     matrix[:3, 3] = pose.xyz
     matrix.flags.writeable = False
     return matrix
@@ -26,17 +20,8 @@ def pose_matrix(pose: Pose) -> Array:
 def pose_matrices(poses: ArrayLike) -> Array:
     """Return matrices, shape (n, 4, 4), for poses x y z [m] and quaternion x y z w, shape (n, 7)."""
     poses = np.asarray(poses, dtype=float).reshape(-1, 7)
-    x, y, z, w = poses[:, 3:].T / np.linalg.norm(poses[:, 3:], axis=1)
     matrices = np.zeros((len(poses), 4, 4))
-    matrices[:, 0, 0] = 1 - 2 * (y * y + z * z)
-    matrices[:, 0, 1] = 2 * (x * y - z * w)
-    matrices[:, 0, 2] = 2 * (x * z + y * w)
-    matrices[:, 1, 0] = 2 * (x * y + z * w)
-    matrices[:, 1, 1] = 1 - 2 * (x * x + z * z)
-    matrices[:, 1, 2] = 2 * (y * z - x * w)
-    matrices[:, 2, 0] = 2 * (x * z - y * w)
-    matrices[:, 2, 1] = 2 * (y * z + x * w)
-    matrices[:, 2, 2] = 1 - 2 * (x * x + y * y)
+    matrices[:, :3, :3] = rotations(poses[:, 3:] / np.linalg.norm(poses[:, 3:], axis=1, keepdims=True))
     matrices[:, :3, 3] = poses[:, :3]
     matrices[:, 3, 3] = 1.0
     return matrices

@@ -33,6 +33,11 @@ class WorldInertial:
     iyz: float = 0.0
     izz: float = 1.0
 
+    @property
+    def rows(self) -> tuple[Vector, Vector, Vector]:
+        """The tensor as a matrix, by rows."""
+        return (self.ixx, self.ixy, self.ixz), (self.ixy, self.iyy, self.iyz), (self.ixz, self.iyz, self.izz)
+
 
 @record(eq=False)
 class WorldLink(Written):

@@ -28,6 +28,16 @@ def rotation_of(rpy: Vector) -> Rotation:
     )
 
 
+def rotation_of_quaternion(x: float, y: float, z: float, w: float) -> Rotation:
+    """Return the rotation of a non-zero quaternion, normalised or not."""
+    s = 2.0 / (x * x + y * y + z * z + w * w)
+    return (
+        (1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)),
+        (s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)),
+        (s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)),
+    )
+
+
 def rotate(rotation: Rotation, vector: Vector) -> Vector:
     """Return rotation · vector."""
     x, y, z = vector
@@ -76,14 +86,7 @@ def rpy_of(rotation: Rotation) -> Vector:
 
 def rpy_of_quaternion(x: float, y: float, z: float, w: float) -> Vector:
     """Return roll, pitch, yaw [rad] of a non-zero quaternion, normalised or not."""
-    s = 2.0 / (x * x + y * y + z * z + w * w)
-    return rpy_of(
-        (
-            (1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)),
-            (s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)),
-            (s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)),
-        )
-    )
+    return rpy_of(rotation_of_quaternion(x, y, z, w))
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:

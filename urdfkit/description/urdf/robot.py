@@ -84,6 +84,11 @@ class Inertia:
     izz: float
     element: Element = field(repr=False)
 
+    @property
+    def rows(self) -> tuple[Vector, Vector, Vector]:
+        """The tensor as a matrix, by rows."""
+        return (self.ixx, self.ixy, self.ixz), (self.ixy, self.iyy, self.iyz), (self.ixz, self.iyz, self.izz)
+
 
 @record(eq=False)
 class Inertial:

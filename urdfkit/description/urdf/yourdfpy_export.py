@@ -58,9 +58,7 @@ def _link(link: Any) -> Any:
 
 
 def _inertial(inertial: Any) -> Any:
-    tensor = None
-    if (i := inertial.inertia) is not None:
-        tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    tensor = None if inertial.inertia is None else np.array(inertial.inertia.rows)
     return yourdfpy.Inertial(_matrix(inertial.origin), inertial.mass, tensor)
 
 

@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.chain import TOLERANCE, Chain
-from urdfkit.kinematics.reach.orientations import rotations
 from urdfkit.kinematics.reach.reach_map import ReachMap
-from urdfkit.linear_algebra import Array
+from urdfkit.linear_algebra import Array, rotations
 
 TURNS = 36
 """Yaw angles of the first candidates."""

@@ -58,17 +58,6 @@ def down_orientations(number: int, tool_axis: ArrayLike = (0.0, 0.0, 1.0)) -> Ar
     return cone_orientations(number, (0.0, 0.0, -1.0), 0.0, tool_axis)
 
 
-def rotations(quaternions: Array) -> Array:
-    """Return rotation matrices of unit quaternions x y z w; shape (N, 3, 3)."""
-    x, y, z, w = quaternions.T
-    rows = (
-        *(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
-        *(2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
-        *(2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
-    )
-    return np.stack(rows, axis=1).reshape(-1, 3, 3)
-
-
 def _checked(number: int) -> int:
     if number < 1:
         raise KinematicsError(f"{number} orientations: at least one is needed")

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.chain import Chain
-from urdfkit.kinematics.reach.orientations import rotations
 from urdfkit.kinematics.reach.pose_grid import Indices, PoseGrid
-from urdfkit.linear_algebra import Array
+from urdfkit.linear_algebra import Array, rotations
 
 SAMPLES = 400_000
 """Random configurations."""

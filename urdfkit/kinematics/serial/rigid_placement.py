@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import chain
 
+from urdfkit.description.urdf.geometry import rotation_of, rotation_of_quaternion
 from urdfkit.description.urdf.robot import Pose
 
 Placement = Sequence[float]
@@ -30,17 +32,7 @@ def invert(a: Placement) -> Placement:
 
 def placement_of(pose: Pose) -> Placement:
     """Return an ``<origin>``: fixed-axis roll, pitch, yaw, i.e. Rz(yaw)·Ry(pitch)·Rx(roll)."""
-    return [*rotation_of(pose.rpy), *pose.xyz]
-
-
-def rotation_of(rpy: Sequence[float]) -> list[float]:
-    """Return the rotation by rows of fixed-axis roll, pitch, yaw [rad]."""
-    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(angle), math.cos(angle)) for angle in rpy)
-    return [
-        *(cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-        *(sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-        *(-sp, cp * sr, cp * cr),
-    ]
+    return [*chain.from_iterable(rotation_of(pose.rpy)), *pose.xyz]
 
 
 def rotation_to(axis: Sequence[float]) -> Placement:
@@ -65,12 +57,6 @@ def turned(angle: float, slide: float) -> Placement:
     return (cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, slide)
 
 
-def rotation_of_quaternion(quaternion: Sequence[float]) -> list[float]:
-    """Return the rotation by rows of a quaternion x y z w that is not zero."""
-    x, y, z, w = quaternion
-    s = 2.0 / (x * x + y * y + z * z + w * w)
-    return [
-        *(1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)),
-        *(s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)),
-        *(s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)),
-    ]
+def placement_of_quaternion(xyz: Sequence[float], quaternion: Sequence[float]) -> Placement:
+    """Return a translation [m] and the rotation of a quaternion x y z w that is not zero."""
+    return [*chain.from_iterable(rotation_of_quaternion(*quaternion)), *xyz]

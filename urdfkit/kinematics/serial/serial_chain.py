@@ -17,7 +17,7 @@ from urdfkit.kinematics.serial.rigid_placement import (
     compose,
     invert,
     placement_of,
-    rotation_of_quaternion,
+    placement_of_quaternion,
     rotation_to,
     turned,
 )
@@ -194,7 +194,7 @@ class SerialChain:
             values = [self.hold.get(f"{joint.name}/{part}", float(part == "rot_w")) for part in parts]
             if not any(values[3:]):
                 raise KinematicsError(f"the quaternion of the floating joint `{joint.name}` is zero")
-            return [[*rotation_of_quaternion(values[3:]), *values[:3]]]
+            return [placement_of_quaternion(values[:3], values[3:])]
         if not joint.has_axis or joint.type not in ("revolute", "continuous", "prismatic", "planar"):
             what = f"no usable type: {joint.type!r}" if joint.has_axis else "an axis that is zero"
             raise KinematicsError(f"joint `{joint.name}` has {what}", position=joint.element.origin.position)

@@ -212,7 +212,7 @@ def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader
 
 
 def _require_ordinary(link: WorldLink, name: str) -> None:
-    if why := impossible(link.inertial):
+    if why := impossible(link.inertial.rows):
         raise SimulationError(
             f"the inertia of link `{link.name}` of `{name}` is impossible: {why}", position=link.position
         )

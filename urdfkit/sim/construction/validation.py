@@ -1,10 +1,9 @@
 """Validation of masses, inertias, sizes and limits before anything is computed with them."""
 
 from collections.abc import Iterator
-from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from urdfkit.description.urdf.robot import Collision, Link, Mesh, Robot
 from urdfkit.description.value_defects import invalid_values
@@ -17,23 +16,6 @@ IMPOSSIBLE = 1e-3
 
 Problem = tuple[str, Element]
 """Message, and the element that it refers to."""
-
-
-class Tensor(Protocol):
-    """A tensor of inertia [kg·m²]."""
-
-    @property
-    def ixx(self) -> float: ...  # noqa: D102 - as it is written
-    @property
-    def ixy(self) -> float: ...  # noqa: D102
-    @property
-    def ixz(self) -> float: ...  # noqa: D102
-    @property
-    def iyy(self) -> float: ...  # noqa: D102
-    @property
-    def iyz(self) -> float: ...  # noqa: D102
-    @property
-    def izz(self) -> float: ...  # noqa: D102
 
 
 def require_valid(robot: Robot) -> None:
@@ -66,23 +48,18 @@ def _masses(link: Link) -> Iterator[Problem]:
         yield f"link `{link.name}` has a mass of {inertial.mass:g} kg; it must be positive", element
     if (i := inertial.inertia) is None:
         return
-    if why := impossible(i):
+    if why := impossible(i.rows):
         yield f"the inertia of link `{link.name}` is impossible: {why}", i.element
 
 
-def tensor_matrix(i: Tensor) -> NDArray[np.float64]:
-    """Return a tensor of inertia as a matrix; shape (3, 3)."""
-    return np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
-
-
-def impossible(i: Tensor, tolerance: float = IMPOSSIBLE) -> str:
+def impossible(tensor: ArrayLike, tolerance: float = IMPOSSIBLE) -> str:
     """Return why a tensor of inertia is impossible for a body; empty if it is possible.
 
     Args:
-        i: the tensor.
+        tensor: the tensor [kg·m²]; shape (3, 3).
         tolerance: largest violation that is possible, relative to the largest moment.
     """
-    a, b, c = np.linalg.eigvalsh(tensor_matrix(i)).tolist()
+    a, b, c = np.linalg.eigvalsh(np.asarray(tensor, dtype=float)).tolist()
     if a < -tolerance * max(abs(a), abs(c)):
         why = "one is negative"
     elif c - a - b > tolerance * abs(c):

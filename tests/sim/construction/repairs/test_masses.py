@@ -16,7 +16,6 @@ from urdfkit.description.urdf.robot import Robot
 from urdfkit.kinematics import Kinematics
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
-from urdfkit.sim.construction.validation import tensor_matrix
 
 INERTIAL = (
     '<inertial><origin xyz="{x} 0 0"/><mass value="{m}"/>'
@@ -55,7 +54,7 @@ def values(robot: Robot, link: str) -> tuple[float, np.ndarray, np.ndarray]:
     assert inertial is not None
     assert inertial.inertia is not None
     axes = pin.rpy.rpyToMatrix(*inertial.origin.rpy)
-    return inertial.mass or 0.0, np.array(inertial.origin.xyz), axes @ tensor_matrix(inertial.inertia) @ axes.T
+    return inertial.mass or 0.0, np.array(inertial.origin.xyz), axes @ np.array(inertial.inertia.rows) @ axes.T
 
 
 def test_a_link_without_inertial_gets_the_mass_of_its_collision_shapes(arm: Repaired) -> None:

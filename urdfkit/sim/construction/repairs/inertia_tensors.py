@@ -19,7 +19,7 @@ from urdfkit.description.urdf.robot import Inertia, Link
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
 from urdfkit.linear_algebra import matmul, symmetric_eigen, vector_norm
-from urdfkit.sim.construction.validation import impossible, tensor_matrix
+from urdfkit.sim.construction.validation import impossible
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ def possible(link: Link, bodies: AttachedBodies) -> tuple[Link, Repair | None]:
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or (inertial.mass or 0.0) < 0.0:
         return link, None
-    written = tensor_matrix(inertial.inertia)
+    written = np.array(inertial.inertia.rows)
     a, b, c = symmetric_eigen(written)[0].tolist()
     excess = (c - a - b) / max(abs(a), abs(c), 1e-300)
     if excess <= ROUNDING:
@@ -60,7 +60,7 @@ def possible(link: Link, bodies: AttachedBodies) -> tuple[Link, Repair | None]:
     change = vector_norm((nearest - written).ravel()) / vector_norm(written.ravel())
     moments = ", ".join(f"{moment:.6g}" for moment in symmetric_eigen(nearest)[0].tolist())
     message = with_effect(
-        f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia, ROUNDING)}",
+        f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia.rows, ROUNDING)}",
         f"simulated with {moments} kg·m² (changed by {100.0 * change:.3g} %)",
     )
     code = "I502" if a <= ZERO * c else "I503"

@@ -19,7 +19,6 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul, symmetric_eigen
 from urdfkit.sim.construction.loading import is_regular
 from urdfkit.sim.construction.repairs.inertia_tensors import ZERO, inertia_of, repair_at
-from urdfkit.sim.construction.validation import tensor_matrix
 
 Array = NDArray[np.float64]
 
@@ -51,7 +50,7 @@ def _on_line(link: Link) -> Array | None:
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or not (inertial.mass or 0.0) > 0.0:
         return None
-    tensor = tensor_matrix(inertial.inertia)
+    tensor = np.array(inertial.inertia.rows)
     smallest, _, largest = symmetric_eigen(tensor)[0].tolist()
     return tensor if largest > 0.0 and smallest <= ZERO * largest else None
 
@@ -71,7 +70,7 @@ def _with_second_moments(link: Link, tensor: Array, least: float) -> Link:
 def _repair(link: Link) -> Repair:
     assert link.inertial is not None
     assert link.inertial.inertia is not None
-    moments = symmetric_eigen(tensor_matrix(link.inertial.inertia))[0].tolist()
+    moments = symmetric_eigen(link.inertial.inertia.rows)[0].tolist()
     message = with_effect(
         f"link `{link.name}` has a principal moment of inertia of zero, so nothing resists its rotation about "
         "that axis",

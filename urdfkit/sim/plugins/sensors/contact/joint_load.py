@@ -51,10 +51,7 @@ def lumps_of(robot: Robot, links: Sequence[str]) -> tuple[Lump, ...]:
         inertial = robot.link_by_name[name].inertial
         if inertial is None or not inertial.mass:
             continue
-        I = inertial.inertia  # noqa: E741 - the field's own letter
-        tensor = np.zeros((3, 3))
-        if I is not None:
-            tensor = np.array([[I.ixx, I.ixy, I.ixz], [I.ixy, I.iyy, I.iyz], [I.ixz, I.iyz, I.izz]])
+        tensor = np.zeros((3, 3)) if inertial.inertia is None else np.array(inertial.inertia.rows)
         found.append(Lump(name, inertial.mass, pose_matrix(inertial.origin), tensor))
     return tuple(found)
 
