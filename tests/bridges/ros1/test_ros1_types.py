@@ -55,11 +55,11 @@ def test_services_and_names() -> None:
 
 
 def test_variables_of_ros_1() -> None:
-    assert master_uri(None, {}) == "http://localhost:11311"
-    assert master_uri("http://robot:11311", {}) == "http://robot:11311"
+    assert master_uri({}) == "http://localhost:11311"
+    assert master_uri({"ROS_MASTER_URI": "http://robot:11311"}) == "http://robot:11311"
     for text in ("robot:11311", "http://robot", "https://robot:1"):
         with pytest.raises(UsageError, match="use http://HOST:PORT"):
-            master_uri(None, {"ROS_MASTER_URI": text})
+            master_uri({"ROS_MASTER_URI": text})
     assert (own_host({}), bind_host({})) == ("127.0.0.1", "127.0.0.1")
     assert bind_host({"ROS_IP": "10.0.0.3"}) == "0.0.0.0"
 

@@ -13,13 +13,13 @@ MASTER, IP, HOSTNAME = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"
 DEFAULT_MASTER = "http://localhost:11311"
 
 
-def master_uri(requested: str | None = None, environment: Mapping[str, str] = os.environ) -> str:
-    """Return the address of the master: the requested one, else that of ``ROS_MASTER_URI``.
+def master_uri(environment: Mapping[str, str] = os.environ) -> str:
+    """Return the address of the master: that of ``ROS_MASTER_URI``, else the usual one.
 
     Raises:
         UsageError: it is not ``http://HOST:PORT``.
     """
-    text = requested or environment.get(MASTER) or DEFAULT_MASTER
+    text = environment.get(MASTER) or DEFAULT_MASTER
     try:
         parts = urlsplit(text)
         valid = parts.scheme == "http" and bool(parts.hostname) and parts.port is not None

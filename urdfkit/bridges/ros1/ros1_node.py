@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import socket
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -11,7 +10,7 @@ from typing import Any, TypeVar
 from xmlrpc.client import Error
 
 from urdfkit.bridges.json_messages import json_values
-from urdfkit.bridges.node.node import RESPONSE, Done, End, Quality, UnknownTypeError
+from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.ros1.environment import bind_host, is_remote, master_uri, own_host
 from urdfkit.bridges.ros1.node_functions import NodeFunctions
 from urdfkit.bridges.ros1.ros1_types import (
@@ -44,10 +43,8 @@ class Ros1Node:
     """A node; it registers again, and sets its parameters again, when a master that was gone is back.
 
     Args:
-        master: address of the master; None for that of the environment.
         name: of the node.
         report: receives lines about the master and about peers that cannot be used.
-        environment: variables of the process.
 
     Raises:
         UsageError: the address is invalid.
@@ -56,28 +53,21 @@ class Ros1Node:
 
     ros, option = "ROS 1", "--ros1"
 
-    def __init__(
-        self,
-        master: str | None = None,
-        *,
-        name: str = NAME,
-        report: Callable[[str], None] = lambda line: None,
-        environment: Mapping[str, str] = os.environ,
-    ) -> None:
+    def __init__(self, *, name: str = NAME, report: Callable[[str], None] = lambda line: None) -> None:
         self.name, self.report = name, report
-        self.uri = master_uri(master, environment)
+        self.uri = master_uri()
         self._closed = Event()
         self._publications: dict[str, TopicPublisher] = {}
         self._subscriptions: dict[str, TopicSubscriber] = {}
         self._services: dict[str, ServiceServer] = {}
         self._parameters: dict[str, Any] = {}
         self._master_process = self._call_master("getPid")  # before anything is opened
-        host = bind_host(environment)
+        host = bind_host()
         self._socket = socket.create_server((host, 0))
         self._server = NodeServer(host)
-        self._server.register_instance(NodeFunctions(self, own_host(environment), self._socket.getsockname()[1]))
-        self._api = f"http://{own_host(environment)}:{self._server.server_address[1]}/"
-        self._rpc = f"rosrpc://{own_host(environment)}:{self._socket.getsockname()[1]}"
+        self._server.register_instance(NodeFunctions(self, own_host(), self._socket.getsockname()[1]))
+        self._api = f"http://{own_host()}:{self._server.server_address[1]}/"
+        self._rpc = f"rosrpc://{own_host()}:{self._socket.getsockname()[1]}"
         self.description = f"the master at {self.uri}"
         for target in (self._server.serve_forever, self._accept, self._watch):
             Thread(target=target, name=f"ros1{target.__name__}", daemon=True).start()
@@ -144,7 +134,7 @@ class Ros1Node:
         checksum = service_checksum(type)
         request = encode(from_fields(f"{type}_Request", fields), f"{type}_Request")
         address = self._call_master("lookupService", service)
-        content = call_service(self.name, service, address, checksum, request, RESPONSE)
+        content = call_service(self.name, service, address, checksum, request)
         return json_values(decode(content, f"{type}_Response"))
 
     def set_parameter(self, name: str, value: Any) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 from urllib.parse import urlsplit
 
+from urdfkit.bridges.node.node import RESPONSE
 from urdfkit.bridges.ros1.ros1_types import ANY, full_name
 from urdfkit.bridges.ros1.tcpros import LENGTH, TIMEOUT, TcprosError, read_block, read_bytes, read_header, write_header
 from urdfkit.errors import ResourceError
@@ -29,7 +30,7 @@ def service_type(node: str, service: str, address: str) -> str:
         raise ResourceError(f"{service}: the server at {address} does not respond ({error})") from error
 
 
-def call_service(node: str, service: str, address: str, checksum: str, request: bytes, seconds: float) -> bytes:
+def call_service(node: str, service: str, address: str, checksum: str, request: bytes) -> bytes:
     """Return the encoded response of a service.
 
     Args:
@@ -38,7 +39,6 @@ def call_service(node: str, service: str, address: str, checksum: str, request: 
         address: of its server.
         checksum: of its type.
         request: the encoded request.
-        seconds: longest time to wait for the response [s].
 
     Raises:
         ResourceError: the server does not respond, has another type, or reports a failure.
@@ -47,7 +47,7 @@ def call_service(node: str, service: str, address: str, checksum: str, request: 
         with _connected(address) as connection:
             write_header(connection, {"callerid": node, "service": service, "md5sum": checksum})
             read_header(connection)
-            connection.settimeout(seconds)
+            connection.settimeout(RESPONSE)
             connection.sendall(LENGTH.pack(len(request)) + request)
             (succeeded,) = read_bytes(connection, 1)
             content = read_block(connection)

@@ -36,23 +36,19 @@ def corners_of_columns(columns: Sequence[Sequence[float]]) -> Corners:
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
 
-def corners_of_numbers(words: Iterable[bytes], stride: int = 3) -> Corners:
+def corners_of_numbers(words: Iterable[bytes]) -> Corners:
     """Return the corners of the bounding box of points written as text.
 
-    Args:
-        words: the numbers; the first three of each `stride` are a point.
-        stride: numbers for each point.
-
     Raises:
-        UnusualFileError: there is no point, or a number is invalid or not finite.
+        UnusualFileError: there is no point, the last one is incomplete, or a number is invalid or not finite.
     """
     try:
         numbers = list(map(float, words))
     except ValueError as error:
         raise UnusualFileError from error
-    if len(numbers) % stride:
+    if len(numbers) % 3:
         raise UnusualFileError
-    return corners_of_columns([numbers[axis::stride] for axis in range(3)])
+    return corners_of_columns([numbers[axis::3] for axis in range(3)])
 
 
 def union(boxes: Sequence[Corners]) -> Corners:

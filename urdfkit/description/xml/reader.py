@@ -123,7 +123,8 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
             f"the file has {tags} tags and comments: more than {MAX_TAGS} are rejected, those from here on; "
             "no option raises the limit: split the file"
         )
-        raise XmlError(message, position=source.position(_start_of(source.text, MAX_TAGS)))
+        first = next(islice(re.finditer("<", source.text), MAX_TAGS, None))
+        raise XmlError(message, position=source.position(first.start()))
     try:
         parser.Parse(source.text, True)
     except expat.ExpatError as error:
@@ -132,11 +133,6 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         raise XmlError(_explain(cause, source, position, open_tags()), position=position, cause=cause) from None
     except UnicodeEncodeError as error:
         raise XmlError("the text contains an unpaired surrogate", position=source.position(error.start)) from None
-
-
-def _start_of(text: str, number: int) -> int:
-    """Return the offset of a tag or comment, counted from 0."""
-    return next(islice(re.finditer("<", text), number, None)).start()
 
 
 def _explain(text: str, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:

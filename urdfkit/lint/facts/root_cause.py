@@ -70,13 +70,12 @@ def call_of(element: Element, right: Iterable[Element]) -> Position | None:
     )
 
 
-def shared_argument(model: Model, element: Element, attribute: str, other: Element) -> Place | None:
+def shared_argument(model: Model, element: Element, other: Element) -> Place | None:
     """Return the argument of a macro call whose value another call of the macro repeats; None if any number differs.
 
     Args:
         model: the linted model.
-        element: an element that a macro produced.
-        attribute: an attribute that uses arguments of the macro.
+        element: an element that a macro produced, whose ``xyz`` uses arguments of the macro.
         other: the same element, produced by another call.
     """
     calls, others = element.origin.expansions, other.origin.expansions
@@ -84,7 +83,7 @@ def shared_argument(model: Model, element: Element, attribute: str, other: Eleme
     macro = model.expanded.macros.get(calls[0].macro) if tag is not None else None
     if tag is None or macro is None or len(calls) != len(others):
         return None
-    written = tag.attributes.get(attribute)
+    written = tag.attributes.get("xyz")
     used = {name for inside in re.findall(_EXPRESSION, written.value if written else "") for name in _names(inside)}
     found = None
     for name in macro.parameters:

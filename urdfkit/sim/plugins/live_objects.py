@@ -98,10 +98,10 @@ class LiveObjects:
             return type(instance.__self__).__module__.startswith(ENGINE)
         return isinstance(instance, (memoryview, Servos))
 
-    def follow_plugins(self, name: str, plugins: list[Any]) -> None:
+    def follow_plugins(self, plugins: list[Any]) -> None:
         """Register plugins and all objects that they refer to."""
         self.packages |= {type(each).__module__.partition(".")[0] for each in plugins} - {"urdfkit"}
-        self.follow(name, plugins)
+        self.follow("plugins", plugins)
 
     def follow_loop(self, loop: ControlLoop) -> None:
         """Register a control loop, and its controllers whenever they are loaded, under names of their own."""

@@ -200,7 +200,7 @@ class SimulatedRobot:
         for loop in loops:
             live.follow_loop(loop)
         installed = self.plugins
-        live.follow_plugins("plugins", [*installed.drives, *installed.sensors, *installed.controllers])
+        live.follow_plugins([*installed.drives, *installed.sensors, *installed.controllers])
         live.follow("publishers", [*self._own_publishers, *self._drive_reads, *self.writes])
 
     @property

@@ -20,14 +20,13 @@ def flat_normals(sides: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.f
 
 
 def crease(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64], *, angle: float = CREASE
+    vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
     """Compute a normal for every corner of every face: the mean over the smoothly adjacent faces at its vertex.
 
     Args:
         vertices: shape (n, 3).
         faces: shape (m, 3).
-        angle: faces whose normals differ by more are not averaged [rad].
 
     Returns:
         Vertices and unit normals, shape (k, 3) each, equal corners merged, and faces (m, 3) into them.
@@ -41,9 +40,9 @@ def crease(
     faces = where[faces]
     area, flat = flat_normals(places[faces])
     corner_vertex = faces.reshape(-1)
-    even, mean = _even(len(places), corner_vertex, area, flat, angle)
+    even, mean = _even(len(places), corner_vertex, area, flat)
     rough = np.flatnonzero(~even[corner_vertex])
-    normals = _paired(rough, corner_vertex, area, flat, angle)
+    normals = _paired(rough, corner_vertex, area, flat)
 
     # A smooth vertex is kept; at a crease each normal gets its own vertex.
     rows = np.hstack([corner_vertex[rough, None], np.round(normals * 32767).astype(np.int64)])
@@ -58,20 +57,20 @@ def crease(
 
 
 def _even(
-    count: int, corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any], angle: float
+    count: int, corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any]
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which vertices have no crease, and their mean normals: all faces are within half of `angle` of it."""
+    """Return which vertices have no crease, and their mean normals: all faces are within half of `CREASE` of it."""
     total: NDArray[np.float64] = np.stack(
         [np.bincount(corner_vertex, np.repeat(area[:, k], 3), count) for k in range(3)], axis=1
     )
     mean = _unit(total)
-    near = np.einsum("ijk,ik->ij", mean[corner_vertex].reshape(-1, 3, 3), flat).reshape(-1) > np.cos(angle / 2)
+    near = np.einsum("ijk,ik->ij", mean[corner_vertex].reshape(-1, 3, 3), flat).reshape(-1) > np.cos(CREASE / 2)
     even = np.bincount(corner_vertex, ~near, count) == 0
     return even & (np.bincount(corner_vertex, minlength=count) > 0), mean
 
 
 def _paired(
-    corners: NDArray[np.int64], corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any], angle: float
+    corners: NDArray[np.int64], corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any]
 ) -> NDArray[np.float64]:
     """Return the normals of corners (all corners of their vertices): the mean over smoothly adjacent faces."""
     # All pairs of corners with the same vertex: sort the corners by vertex, then pair them at increasing distance.
@@ -86,7 +85,7 @@ def _paired(
             break
         at = np.flatnonzero(shared)
         a, b = face_of[at], face_of[at + distance]
-        smooth = np.einsum("ij,ij->i", flat[a], flat[b]) > np.cos(angle)
+        smooth = np.einsum("ij,ij->i", flat[a], flat[b]) > np.cos(CREASE)
         at, a, b = at[smooth], a[smooth], b[smooth]
         total[at] += area[b]  # each index occurs once per distance
         total[at + distance] += area[a]

@@ -92,7 +92,7 @@ class TwinsMisplaced(RobotRule):
                 names: tuple[str, ...] = (pair.first.name, pair.second.name)
                 names += tuple(link for joint in (pair.first, pair.second) if (link := joint.child))
                 other = (pair.first if wrong is pair.second else pair.second).element.find("origin")
-                argument = shared_argument(model, origin, "xyz", other) if other is not None else None
+                argument = shared_argument(model, origin, other) if other is not None else None
                 place, attribute = argument or (origin, "xyz")
                 yield self.at(model, place, message, attribute=attribute, joint=wrong.name, help=help, names=names)
         for joint, message in (*_exchanged(model), *_equal_below_mirrored(model)) if not found else ():
