@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from urdfkit.description.meshes.points import Corners
-    from urdfkit.description.urdf.robot import Collision, Mesh, Robot, Vector, Visual
+    from urdfkit.description.urdf.robot import Mesh, Robot, Vector
     from urdfkit.description.xacro.expanded import Expanded
 
 
@@ -32,7 +32,6 @@ class MeshBoxes:
         self._faults: dict[str, str] = {}
         self._boxes: dict[Mesh, tuple[Vector, Vector] | None] = {}
         self._measured: set[str] = set()
-        self._newest: set[str] = set()
 
     def box(self, mesh: Mesh, expanded: Expanded) -> tuple[Vector, Vector] | None:
         """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""
@@ -56,16 +55,11 @@ class MeshBoxes:
         names = set(links)
         uris = {mesh.uri for mesh, _, link in meshes(robot) if None in names or link.name in names} - self._measured
         self._measured |= uris
-        self._newest = uris
         changed = [mesh for mesh in self._boxes if mesh.uri in uris]
         for mesh in changed:
             del self._boxes[mesh]
         self.version += bool(changed)
         return bool(changed)
-
-    def are_new(self, shapes: Iterable[Visual | Collision]) -> bool:
-        """Return whether the last call of `measure` has changed the box of a mesh among some shapes."""
-        return any(getattr(shape.geometry, "uri", None) in self._newest for shape in shapes)
 
     def _corners(self, mesh: Mesh, path: Path) -> Corners | None:
         """Return the corners of a mesh; trimesh reads the formats that the quick readers do not read."""

@@ -92,7 +92,7 @@ class Model:
             return True
         from urdfkit.lint.model.xacro_prefix import misspelt_in_robot
 
-        if any(misspelt_in_robot(child) is not None for child in self.robot.element.children):
+        if any(self.facts.of(misspelt_in_robot, self.robot.element.children)):
             return True
         faults = (fault for fault in self.expanded.faults if "meant" not in fault.details)
         return any(fault.kind in _DROPPING and fault.details.get("cause") != "unbound prefix" for fault in faults)
@@ -283,7 +283,7 @@ class Model:
         """Link name → extent of its shapes; without links that have no shapes or a shape of unknown size."""
         version = self.mesh_boxes.version
         if version not in self._extents:
-            self._extents[version] = self._compute_extents(self._extents.get(version - 1, {}))
+            self._extents[version] = self._compute_extents()
         self.mesh_boxes.were_used = True
         return self._extents[version]
 
@@ -291,27 +291,23 @@ class Model:
     def _extents(self) -> dict[int, dict[str, Extent]]:
         return {}
 
-    def _compute_extents(self, estimated: Mapping[str, Extent]) -> dict[str, Extent]:
-        from urdfkit.lint.model.placement import extent, extent_of_primitives, shapes_of
+    def _compute_extents(self) -> dict[str, Extent]:
+        from urdfkit.lint.model.placement import extent_of_primitives, extent_with_boxes, meshes_in
 
         once: Sequence[Link] = self.robot.links
         if len(self.robot.link_by_name) < len(once):  # Which shapes of a duplicate link apply is undefined.
             counts = Counter(link.name for link in once)
             once = [link for link in once if counts[link.name] == 1]
-        alike: dict[Hashable, Extent] = {}
-        found = {}
-        for link, filled in zip(once, self.facts.of(extent_of_primitives, once, self.key), strict=True):
-            if filled is None and (shapes := shapes_of(link)):  # with a mesh, or of unknown size
-                key = self.key(link)
-                if link.name in estimated and not self.mesh_boxes.are_new(shapes):
-                    filled = estimated[link.name]
-                else:
-                    filled = alike.get(key) or extent(link, self.box_of)
-                if filled is not None:
-                    alike[key] = filled
-            if filled is not None:
-                found[link.name] = filled
-        return found
+        extents = zip(once, self.facts.of(extent_of_primitives, once, self.key), strict=True)
+        found = {link.name: extent for link, extent in extents}
+        with_meshes = [
+            (link, tuple(map(self.box_of, meshes)))
+            for link in once
+            if found[link.name] is None and (meshes := meshes_in(link))
+        ]
+        measured = self.facts.of(extent_with_boxes, with_meshes, lambda each: (self.key(each[0]), each[1]))
+        found.update((link.name, extent) for (link, _), extent in zip(with_meshes, measured, strict=True))
+        return {name: extent for name, extent in found.items() if extent is not None}
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
         """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""

@@ -23,6 +23,7 @@ from urdfkit.description.urdf.robot import (
     Collision,
     Cylinder,
     Geometry,
+    Joint,
     Link,
     Mesh,
     Pose,
@@ -55,6 +56,11 @@ def frames(robot: Robot) -> dict[str, Frame]:
         if joint.child is not None and joint.parent in found and joint.child not in found:
             found[joint.child] = found[joint.parent].moved(joint.origin)
     return found
+
+
+def offset_of(joint: Joint) -> float:
+    """Return the distance of a joint from the frame of its parent link [m]."""
+    return hypot(*joint.origin.xyz)
 
 
 def shapes_of(link: Link) -> tuple[Visual | Collision, ...]:
@@ -150,6 +156,22 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
 def extent_of_primitives(link: Link) -> Extent | None:
     """Return the extent of a link's shapes; None if it has no shapes, a mesh or a shape of unknown size."""
     return extent(link, lambda mesh: None)
+
+
+def extent_with_boxes(link_and_boxes: tuple[Link, tuple[tuple[Vector, Vector] | None, ...]]) -> Extent | None:
+    """Return the extent of a link's shapes as `extent` does.
+
+    Args:
+        link_and_boxes: the link, and centre and size of the boxes of `meshes_in`, scale included.
+    """
+    link, boxes = link_and_boxes
+    following = iter(boxes)
+    return extent(link, lambda mesh: next(following))
+
+
+def meshes_in(link: Link) -> list[Mesh]:
+    """Return the meshes among the shapes of a link."""
+    return [shape.geometry for shape in shapes_of(link) if isinstance(shape.geometry, Mesh)]
 
 
 def solid(link: Link, extents: Mapping[str, Extent]) -> tuple[Extent | None, bool]:

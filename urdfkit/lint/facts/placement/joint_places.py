@@ -54,9 +54,9 @@ def misplaced(model: Model) -> Iterator[Place]:
     Compares joints that turn or slide within limits, and fixed joints with such joints below, but not the joints of
     steered wheels, which are next to the chassis. The joints of one macro count as one.
     """
-    compared, off = list[Joint](), dict[object, Place]()
-    for joint, below, parent in _depths(model):
-        compared.append(joint)
+    off: dict[object, Place] = {}
+    compared = _compared(model)
+    for (joint, parent), below in zip(compared, model.facts.of(depth_of, compared), strict=True):
         if abs(below) <= _EXACT:
             continue
         element = _origin(joint)
@@ -68,25 +68,33 @@ def misplaced(model: Model) -> Iterator[Place]:
     one = next(iter(off.values()), None)
     if one is None or model.is_unresolved(one.element, "xyz"):
         return
-    if len({_origin(joint).origin.position for joint in compared}) > _FEWEST:
+    if len({_origin(joint).origin.position for joint, _ in compared}) > _FEWEST:
         size = one.parent.diagonal
         is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None
         if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
 
 
-def _depths(model: Model) -> Iterator[tuple[Joint, float, Extent]]:
-    """Yield the joints that are compared, with the depth below the surface of the parent link and its extent."""
+def _compared(model: Model) -> list[tuple[Joint, Extent]]:
+    """Return the joints that are compared, with the extents of their parent links."""
     joints, extents = model.robot.joints, model.extents
     axles = {joint.parent for joint in joints if joint.type == "continuous"}
     carriers = _carriers(model) if any(joint.type == "fixed" for joint in joints) else set()
     meshed = {link.name for _, _, link in model.meshes}
-    for joint in joints:
-        is_compared = joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers)
-        parent = extents.get(joint.parent or "") if is_compared else None
-        if parent is None or joint.parent in meshed or (joint.type == "revolute" and joint.child in axles):
-            continue
-        yield joint, depth(joint.origin.xyz, parent), parent
+    return [
+        (joint, parent)
+        for joint in joints
+        if (joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers))
+        and (parent := extents.get(joint.parent or "")) is not None
+        and joint.parent not in meshed
+        and not (joint.type == "revolute" and joint.child in axles)
+    ]
+
+
+def depth_of(joint_and_parent: tuple[Joint, Extent]) -> float:
+    """Return the depth of a joint below the surface of its parent link, whose extent is given; see `depth`."""
+    joint, parent = joint_and_parent
+    return depth(joint.origin.xyz, parent)
 
 
 def _origin(joint: Joint) -> Element:

@@ -1,14 +1,15 @@
 """G604 mesh-scale-suspect."""
 
 import re
-from bisect import bisect_right
-from math import dist, hypot, sqrt
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+from math import dist, sqrt
 
 from urdfkit.description.urdf.geometry import box_around
 from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.lint.fix_builders import more_attributes, new_value
-from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.model.placement import offset_of, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MAX_RATIO = 50.0
@@ -76,11 +77,11 @@ class MeshScaleSuspect(RobotRule):
         references = _reference_sizes(model)
         children = {joint.child for joint in model.robot.joints}
         every = sorted([*references, *(size for *_, size in sized_meshes)])
+        own: dict[str, list[float]] = {}
+        for mesh, _, _, size in sized_meshes:
+            own.setdefault(mesh.uri, []).append(size)
         for mesh, element, link, size in sized_meshes:
-            others = every.copy()
-            for own in (other for m, *_, other in sized_meshes if m.uri == mesh.uri):
-                others.remove(own)
-            median = _median(others)
+            median = _median(every, sorted(own[mesh.uri]))
             if size > LARGE and not _is_other_unit(size, median):
                 median = _median(sorted(references)) or _radius_of_gyration(link)
             is_fixed = link.name not in children and median < size <= MAX_BUILDING
@@ -115,15 +116,25 @@ def _is_other_unit(size: float, median: float) -> bool:
     return bool(size and median) and (MAX_RATIO < size / median < 10000.0 or MAX_RATIO < median / size < 10000.0)
 
 
-def _median(ordered: list[float]) -> float:
-    """Return the median of sorted sizes [m], without those below a tenth of a millimetre; 0 without any."""
-    first = bisect_right(ordered, 1e-4)
-    return ordered[(first + len(ordered)) // 2] if first < len(ordered) else 0.0
+def _median(ordered: list[float], own: Sequence[float] = ()) -> float:
+    """Return the median of sorted sizes [m], without those below a tenth of a millimetre; 0 without any.
+
+    Args:
+        ordered: the sizes, sorted.
+        own: the sizes among them that do not count, sorted.
+    """
+    first, last = bisect_right(ordered, 1e-4) - bisect_right(own, 1e-4), len(ordered) - len(own)
+    if first >= last:
+        return 0.0
+    middle = (first + last) // 2
+    for number, size in enumerate(own):
+        middle += bisect_left(ordered, size) + number - bisect_left(own, size) <= middle
+    return ordered[middle]
 
 
 def _reference_sizes(model: Model) -> list[float]:
     """Return the distances between joints and the sizes of shapes other than meshes [m]."""
-    sizes = [hypot(*joint.origin.xyz) for joint in model.robot.joints]
+    sizes = model.facts.of(offset_of, model.robot.joints).copy()
     extents, links = model.extents, model.robot.links
     for link, (others, has_mesh) in zip(links, model.facts.of(_other_sizes, links), strict=True):
         if not has_mesh and link.name in extents:

@@ -1,9 +1,7 @@
 """G619 size-in-other-unit."""
 
-from math import hypot
-
 from urdfkit.description.urdf.robot import Link, Mesh
-from urdfkit.lint.model.placement import Extent, shapes_of
+from urdfkit.lint.model.placement import Extent, offset_of, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 from urdfkit.lint.rules.inertial.mass_vs_volume import MIN_DENSITY, PLACEHOLDER, SCENERY_SIZE
 
@@ -64,10 +62,8 @@ class SizeInOtherUnit(RobotRule):
             link = model.robot.link_by_name[name]
             if name not in children or any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
                 continue
-            others = sorted(
-                [*(other.diagonal for key, other in extents.items() if key != name)]
-                + [hypot(*joint.origin.xyz) for joint in model.robot.joints if any(joint.origin.xyz)]
-            )
+            offsets = filter(None, model.facts.of(offset_of, model.robot.joints))
+            others = sorted([*(other.diagonal for key, other in extents.items() if key != name), *offsets])
             median = others[len(others) // 2] if len(others) >= _MIN_OTHERS else 0.0
             if not median or extent.diagonal <= _TIMES * median or _has_impossible_density(link, extent):
                 continue

@@ -3,7 +3,7 @@
 from math import dist, inf, sqrt
 
 from urdfkit.description.urdf.robot import Joint, Pose
-from urdfkit.lint.model.placement import Extent, Frame, shapes_of
+from urdfkit.lint.model.placement import Extent, Frame, offset_of, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MIN_DISTANCE = 10.0
@@ -85,8 +85,8 @@ class OriginTooFar(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that is too far from its parent link."""
-        zero = (0.0, 0.0, 0.0)
-        distances = [(joint, dist(joint.origin.xyz, zero)) for joint in model.robot.joints]
+        joints = model.robot.joints
+        distances = list(zip(joints, model.facts.of(offset_of, joints), strict=True))
         largest = max((distance for _, distance in distances), default=0.0)
         if largest < _MIN_GAP:
             return
@@ -103,8 +103,9 @@ class OriginTooFar(RobotRule):
         if is_complete:
             yield from self._outside(model)
         checked = 0
+        ordinary = max(_MIN_GAP, min(size, _TIMES_ITS_LINKS * min(sizes.values())))
         for joint, distance in distances:
-            if distance <= _MIN_GAP or distance <= (near := min(size, _times_its_links(joint, sizes))):
+            if distance <= ordinary or distance <= (near := min(size, _times_its_links(joint, sizes))):
                 continue
             origin = joint.element.find("origin")
             is_placed_in_world = joint.parent not in children and joint.parent not in extents
