@@ -111,13 +111,22 @@ class Reuse(Calls):
     def _remembered(self, root: Root, macros: Scope, scope: Scope) -> Steps:
         """Evaluate the children of a root element, except children that expand to the same as before."""
         has_own_names = type(scope) is type(macros) is Scope  # and not those of a namespace
+        can_repeat = has_own_names and self._can_repeat()
+        values: dict[tuple[bool, Any], Any] = {}  # of names, until a child may change them
+        repeated: list[Element] = []
         for child in root.remembered:
+            if can_repeat and child.record is not None and self._holds(child.record, macros, scope, values):
+                repeated += child.elements
+                continue
+            if repeated:
+                root.append(ExpandedElements(repeated, root.position))
+                repeated = []
+            child.record = None
+            yield self._evaluate(child, root, macros, scope, is_traced=can_repeat)
             can_repeat = has_own_names and self._can_repeat()
-            if can_repeat and child.record is not None and self._holds(child.record, macros, scope):
-                root.append(ExpandedElements(child.elements, root.position))
-            else:
-                child.record = None
-                yield self._evaluate(child, root, macros, scope, is_traced=can_repeat)
+            values.clear()
+        if repeated:
+            root.append(ExpandedElements(repeated, root.position))
 
     def _evaluate(self, child: Child, root: Root, macros: Scope, scope: Scope, *, is_traced: bool) -> Steps:
         tag = child.tag
@@ -168,15 +177,24 @@ class Reuse(Calls):
         holder.first = holder.last = None
         holder.append(ExpandedElements(elements, holder.position))
 
-    def _holds(self, record: Record, macros: Scope, scope: Scope) -> bool:
-        """Return whether a record is still valid; if so, repeat the side effects of the child."""
+    def _holds(self, record: Record, macros: Scope, scope: Scope, values: dict[tuple[bool, Any], Any]) -> bool:
+        """Return whether a record is still valid; if so, repeat the side effects of the child.
+
+        Args:
+            record: names and commands of a child at its last evaluation.
+            macros: the scope of the macros.
+            scope: the scope of the properties.
+            values: what `_current` has returned for names, each with whether a macro was looked up; updated.
+        """
         expanded, calls, evaluated, steps = record.counts
         expanded, calls, evaluated = self._expanded + expanded, self._calls + calls, self._evaluated + evaluated
         steps += self.budget.left
         if expanded > MAX_EXPANDED or calls > MAX_MACRO_CALLS or evaluated > MAX_EXPRESSIONS or steps < 0:
             return False
         for is_macro, name, value in record.reads:
-            if _current(macros if is_macro else scope, name) != value:
+            if (is_macro, name) not in values:
+                values[is_macro, name] = _current(macros if is_macro else scope, name)
+            if values[is_macro, name] != value:
                 return False
         for content, value in record.commands.items():
             try:
