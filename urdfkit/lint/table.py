@@ -153,7 +153,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "semantics.odometry_frame_not_root", "OdometryFrameNotRoot"),
     ("gazebo", "semantics.drive_wheel_without_friction", "DriveWheelWithoutFriction"),
     ("sensor", "semantics.sensor_view_blocked", "SensorViewBlocked"),
-    ("plugin", "semantics.caster_with_friction", "CasterWithFriction"),
+    ("gazebo", "semantics.caster_with_friction", "CasterWithFriction"),
     ("type=fixed", "semantics.tool_frame_inside_body", "ToolFrameInsideBody"),
     (
         "type=revolute type=continuous type=prismatic",

@@ -8,7 +8,9 @@ from urdfkit.description.xml.source import Span
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 
-_HANDED_ON = r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*"
+_HANDED_ON = r"[\s0]*\$\{\s*([A-Za-z_]\w*)\s*\}[\s0]*"
+"""Matches a parameter, perhaps between zeros: ``0 0 ${yaw}``."""
+
 _ATTRIBUTE = rf"[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"']"
 _TAG = rf"<[\w:.-]+\s+{_ATTRIBUTE}\s*/?>"
 """Matches a tag with one attribute."""

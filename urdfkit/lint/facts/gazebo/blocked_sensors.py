@@ -29,6 +29,9 @@ _RAYS = 37
 _BLOCKED = 0.95
 """Number of directions of a lidar that are checked, and the part of them that a blocked lidar does not see beyond."""
 
+_FACING = 0.25
+"""Part of the directions of a lidar that a robot behind it hides, if the lidar faces the robot."""
+
 _TILT = 0.15
 """Angle between the axis of a camera and the further directions that are checked [rad]."""
 
@@ -39,8 +42,8 @@ Solid = tuple[str, Geometry, Frame]
 """Link, shape and the pose of the shape in the root link."""
 
 
-def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]]:
-    """Yield the sensors that see nothing but the robot, with the message."""
+def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str, str | None]]:
+    """Yield the sensors that see nothing but the robot, or face it: message, and the attribute of the wrong origin."""
     attached = AttachedBodies(model.robot)
     bodies: list[Solid] = []
     for block in model.robot.gazebo:
@@ -63,13 +66,17 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str]
             ]
             around = next((name for name, shape, at in solids if _depth(shape, _local(at, eye)) > _INSIDE), None)
             if around is not None:
-                yield block, sensor, f"sensor `{sensor.name}` is inside the shape of link `{around}`"
+                yield block, sensor, f"sensor `{sensor.name}` is inside the shape of link `{around}`", "xyz"
                 continue
             rays = _fan(sensor.element) if kind in _LIDARS else [(0.0, 0.0), *_AROUND]
             hit = [_first(solids, eye, *angles) for angles in rays]
             seen = [name for name in hit if name is not None]
             if len(seen) >= _BLOCKED * len(rays):
-                yield block, sensor, f"sensor `{sensor.name}` faces only the shape of link `{seen[0]}`"
+                yield block, sensor, f"sensor `{sensor.name}` faces only the shape of link `{seen[0]}`", None
+            elif kind in _LIDARS and len(seen) >= _FACING * len(rays) and not _sees_any(solids, eye, rays):
+                part = f"{100.0 * len(seen) / len(rays):.0f} % of its view"
+                message = f"sensor `{sensor.name}` faces link `{seen[0]}` with {part}; turned round, with none"
+                yield block, sensor, message, "rpy"
 
 
 _AROUND = ((_TILT, 0.0), (-_TILT, 0.0), (0.0, _TILT), (0.0, -_TILT))
@@ -120,6 +127,11 @@ def _fan(sensor: Element) -> list[tuple[float, float]]:
     low, high = ((number(each.text or "") if each is not None else None) for each in limits)
     first, last = (-pi, pi) if low is None or high is None else (low, high)
     return [(first + (last - first) * step / (_RAYS - 1), 0.0) for step in range(_RAYS)]
+
+
+def _sees_any(solids: list[Solid], eye: Frame, rays: list[tuple[float, float]]) -> bool:
+    """Return whether a lidar sees the robot if it is turned round."""
+    return any(_first(solids, eye, yaw + pi, pitch) is not None for yaw, pitch in rays)
 
 
 def _first(solids: list[Solid], eye: Frame, yaw: float, pitch: float) -> str | None:

@@ -48,7 +48,7 @@ _TYPES = {
 """Sensor type of gz sim → type of its messages."""
 
 _ROS_TYPES = {
-    **dict.fromkeys(("laser", "ray_sensor"), "LaserScan"),
+    "laser": "LaserScan",
     **dict.fromkeys(("imu", "imu_sensor", "hector_imu"), "Imu"),
 }
 """Kind of a plugin of Gazebo Classic → ROS type of its messages."""
@@ -93,7 +93,8 @@ def published(model: Model) -> Iterator[Published]:
         found = _of_ros_1(plugin, spec) if is_ros1 else (("", *each) for each in _of_ros_2(plugin, spec, sensor))
         for meaning, topic, element in found:
             if not model.is_unresolved(element) and "$" not in topic:
-                kind = _ROS_TYPES.get(spec.kind) or _OF_MEANINGS.get(meaning, "")
+                kind = _OF_MEANINGS.get(meaning) or _ROS_TYPES.get(spec.kind, "")
+                kind = _of_rays(plugin) if spec.kind == "ray_sensor" else kind
                 yield Published(topic, name, key, element, kind)
     for block in model.robot.gazebo:
         for sensor in block.sensors:
@@ -146,6 +147,12 @@ def _of_ros_2(plugin: Plugin, spec: PluginSpec, sensor: SensorTag | None) -> Ite
             if old.strip().replace("~", plugin.name or "").rpartition("/")[2] == own.rpartition("/")[2] and new:
                 topic, element = new.strip().replace("~", plugin.name or ""), rule
         yield _absolute(topic, namespace), element
+
+
+def _of_rays(plugin: Plugin) -> str:
+    """Return the type of the messages of libgazebo_ros_ray_sensor.so (gazebo_ros_pkgs, gazebo_ros_ray_sensor.cpp)."""
+    written = plugin.element.find("output_type")
+    return "PointCloud2" if written is None else written.text.strip().rpartition("/")[2]
 
 
 def _absolute(topic: str, *below: str) -> str:

@@ -13,8 +13,8 @@ class CasterWithFriction(RobotRule):
     """A sliding caster has as much friction as a tyre in Gazebo.
 
     ## What it does
-    Checks ``mu1`` and ``mu`` of casters that are spheres on a fixed joint, next to the wheels of a differential or
-    skid-steer drive. Coefficients of 0.5 and more are reported.
+    Checks ``mu1`` and ``mu`` of casters that are spheres on a fixed joint, next to the wheels of a drive or
+    a left and a right wheel. Coefficients of 0.5 and more are reported.
 
     ## Why is this bad?
     The ball does not roll but slides: its friction brakes the robot and hinders turns, so the odometry is wrong.
@@ -55,8 +55,7 @@ class CasterWithFriction(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each sliding caster with a large coefficient."""
-        from urdfkit.lint.facts.gazebo.drive_wheels import drives
-        from urdfkit.lint.facts.gazebo.rolling_wheels import CASTER
+        from urdfkit.lint.facts.gazebo.rolling_wheels import CASTER, pairs_of_wheels
 
         fixed = {joint.child for joint in model.robot.joints if joint.type == "fixed"}
         balls = {
@@ -67,7 +66,7 @@ class CasterWithFriction(RobotRule):
             and shapes_of(link)
             and all(isinstance(shape.geometry, Sphere) for shape in link.collisions or link.visuals)
         }
-        if not balls or not any(True for _ in drives(model)):
+        if not balls or not pairs_of_wheels(model):
             return
         for block in model.robot.gazebo:
             for element in block.element.walk() if block.reference in balls else ():

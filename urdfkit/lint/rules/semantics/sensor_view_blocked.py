@@ -4,12 +4,13 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class SensorViewBlocked(RobotRule):
-    """The robot blocks the whole view of a camera or lidar.
+    """The robot blocks the view of a camera or lidar.
 
     ## What it does
     Checks for Gazebo cameras and lidars inside a box, cylinder or sphere of another link, and for those whose view ends
-    at such a shape within a metre. Only links that are fixed to the link of the sensor are compared. Shapes with a
-    diagonal of up to 0.25 m are ignored, because they are usually housings of the sensor.
+    at such a shape within a metre. Also checks for lidars that see the robot in at least a quarter of their view, and
+    would not see it if they were turned round. Only links that are fixed to the link of the sensor are compared.
+    Shapes with a diagonal of up to 0.25 m are ignored, because they are usually housings of the sensor.
 
     ## Why is this bad?
     The image is dark, or the scan has the same distances everywhere. Usually a sign or the height of the origin is
@@ -41,7 +42,7 @@ class SensorViewBlocked(RobotRule):
         from urdfkit.lint.facts.gazebo.blocked_sensors import blocked_sensors
 
         parents = {joint.child: joint for joint in model.robot.joints}
-        for block, sensor, message in blocked_sensors(model):
+        for block, sensor, message, attribute in blocked_sensors(model):
             joint = parents.get(block.reference)
             origin = joint.element.find("origin") if joint is not None else None
             pose = sensor.element.find("pose")
@@ -50,4 +51,6 @@ class SensorViewBlocked(RobotRule):
                 yield self.at(model, pose or sensor.element, message, link=block.reference)
                 continue
             help = f"check the origin of joint `{joint.name}`"
-            yield self.at(model, origin, message, link=block.reference, joint=joint.name, help=help)
+            yield self.at(
+                model, origin, message, attribute=attribute, link=block.reference, joint=joint.name, help=help
+            )
