@@ -132,7 +132,7 @@ def inscribed_radius(points: Points) -> float:
     inside, distance = False, float("inf")
     for (x, y), (u, v) in pairwise([*points, points[0]]):
         inside ^= (y > 0.0) != (v > 0.0) and x + (u - x) * (0.0 - y) / (v - y) > 0.0
-        length = (u - x) ** 2 + (v - y) ** 2
+        length = (u - x) * (u - x) + (v - y) * (v - y)  # ** raises OverflowError for huge numbers
         at = min(max(-(x * (u - x) + y * (v - y)) / length, 0.0), 1.0) if length else 0.0
         distance = min(distance, hypot(x + at * (u - x), y + at * (v - y)))
     return distance if inside else 0.0
