@@ -21,8 +21,9 @@ from urdfkit.scene.renderer import ImageRenderer, check, renderer_of
 from urdfkit.scene.segmentation_labels import label_of
 from urdfkit.scene.world_shapes import shapes_of_link
 from urdfkit.sim.construction.rigid_bodies import parts_of
+from urdfkit.sim.state.configuration_snapshot import Snapshot
 from urdfkit.sim.state.poses import seven
-from urdfkit.sim.state.robot_state import Snapshot, State
+from urdfkit.sim.state.robot_state import State
 
 BODY = "world/"
 """Prefix for the names of the world's bodies; names of links contain no slash."""

@@ -9,23 +9,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from urdfkit.description.xacro.evaluation.element_conversion import element_of
-from urdfkit.description.xacro.evaluation.evaluator import Evaluator, deep_calls
+from urdfkit.description.xacro.evaluation.evaluator import deep_calls
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, MAX_EXPRESSIONS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
-from urdfkit.description.xacro.evaluation.macros import Macro, found_macro
+from urdfkit.description.xacro.evaluation.macros import Macro
 from urdfkit.description.xacro.evaluation.texts import EXPRESSION
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault, Unprefixed
 from urdfkit.description.xacro.memory import Memory
-from urdfkit.description.xacro.recovery.call_repairs import fit, is_call_of, near_macros
 from urdfkit.description.xacro.recovery.late_definitions import LateDefinitions
-from urdfkit.description.xacro.recovery.missing_prefix import add_missing_prefixes, looks_like_a_call, rename
+from urdfkit.description.xacro.recovery.missing_prefix import add_missing_prefixes
 from urdfkit.description.xacro.recovery.misspelt_directives import repair_spelling
+from urdfkit.description.xacro.recovery.recovering_calls import RecoveringCalls, mark_late
 from urdfkit.description.xacro.recovery.unknown_values import Arguments, Recorded, Unknown
-from urdfkit.description.xml.known_tags import TAGS
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.errors import XmlError
@@ -38,7 +37,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xacro.evaluation.evaluator import Steps
 
 
-class RecoveringEvaluator(Evaluator):
+class RecoveringEvaluator(RecoveringCalls):
     """One pass over a file that continues after failures.
 
     Args:
@@ -51,7 +50,7 @@ class RecoveringEvaluator(Evaluator):
         memory: what earlier expansions of the file read.
     """
 
-    _collections = (*Evaluator._collections, "_uncalled")
+    _collections = (*RecoveringCalls._collections, "_uncalled")
 
     def __init__(
         self,
@@ -264,7 +263,7 @@ class RecoveringEvaluator(Evaluator):
         failure = undefined_property(name, self.visible(scope))
         failure.facts["expression"] = self._expression
         if name in self._late.properties:
-            _mark_late(failure, "property", name, self._late.properties[name][1])
+            mark_late(failure, "property", name, self._late.properties[name][1])
         self._record(failure)
 
     def _boolean(self, value: Any, condition: Any) -> bool:
@@ -303,61 +302,6 @@ class RecoveringEvaluator(Evaluator):
         if shown_path(self.file_stack[-1]) in self._loops:
             raise Recorded
         return super()._include(node, macros, scope)
-
-    # Calls
-
-    def _child(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
-        if self._adds_prefixes and node.tag not in TAGS and not node.tag.startswith("xacro:"):
-            macro = self._macro_named(node.tag, macros, scope)
-            if macro is None:
-                self._uncalled.add(node.tag)
-            elif looks_like_a_call(node, [parameter.name for parameter in macro.parameters]):
-                self.untraced += 1
-                self._unprefixed.setdefault(Unprefixed("call", node.tag, node.position, node.chain))
-                rename(node)
-        return super()._child(node, macros, scope)
-
-    def _macro_named(self, name: str, macros: Scope, scope: Scope) -> Macro | None:
-        try:
-            return found_macro(name, macros, scope)[2]
-        except KeyError:
-            return self._late.macros.get(name)
-
-    def _found(self, name: str, node: Tag, macros: Scope, scope: Scope) -> tuple[str, Scope, Scope, Macro]:
-        """Return the macro that an element calls, also if it is misspelt or defined later; fit the call to it."""
-        if name in self._loops or "elements" in self._exceeded or "$" in name:  # a computed name whose value is unknown
-            raise Recorded
-        try:
-            found = super()._found(name, node, macros, scope)
-        except Failure as failure:
-            found = self._meant(failure, name, node, macros, scope)
-        for wrong in fit(node, found[3]):
-            self._record(wrong)
-        return found
-
-    def _meant(
-        self, failure: Failure, name: str, node: Tag, macros: Scope, scope: Scope
-    ) -> tuple[str, Scope, Scope, Macro]:
-        macro = self._late.macros.get(name)
-        if macro is not None and macro.body is not None:
-            _mark_late(failure, "macro", name, macro.body.position)
-            self._record(failure)
-            return name, self.top_macros, self.top_scope, macro
-        for near in near_macros(name, failure.facts.get("candidates", ())):
-            try:
-                inner_macros, inner_scope, macro = found_macro(near, macros, scope)
-            except KeyError:
-                continue
-            if is_call_of(node, macro):
-                failure.facts["details"] = {"meant": near}
-                self._record(failure)
-                return near, inner_macros, inner_scope, macro
-        raise failure
-
-
-def _mark_late(failure: Failure, what: str, name: str, place: Position | None) -> None:
-    failure.message = f"{what} `{name}` is used before it is defined{f', at {place}' if place else ''}"
-    failure.facts["defined_at"] = place
 
 
 def _as_written(kind: int, content: str) -> Unknown:

@@ -56,8 +56,9 @@ class MoveitSettingInvalid(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
+        from urdfkit.lint.facts.moveit.entry_defects import incomplete_entries, uncontrolled_joints
         from urdfkit.lint.facts.moveit.group_joints import projection_defects
-        from urdfkit.lint.facts.moveit.planning import incomplete_entries, planning_defects, uncontrolled_joints
+        from urdfkit.lint.facts.moveit.planning import planning_defects
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups
 
@@ -84,7 +85,7 @@ class MoveitSettingInvalid(RobotRule):
 
 
 def _defects(entry: MoveitEntry, model: Model) -> Iterator[tuple[Node, str]]:
-    from urdfkit.lint.facts.moveit.planning import controller_defects, limit_defects
+    from urdfkit.lint.facts.moveit.entry_defects import controller_defects, limit_defects
 
     if entry.kind == "group":
         yield from _group(entry)

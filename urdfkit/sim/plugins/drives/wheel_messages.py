@@ -6,7 +6,8 @@ from typing import Any
 from urdfkit.bus import Topic
 from urdfkit.messages import JOINT_STATE, TF, header, message_type, transform
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.state.robot_state import Snapshot, State
+from urdfkit.sim.state.configuration_snapshot import Snapshot
+from urdfkit.sim.state.robot_state import State
 
 
 class Wheels:

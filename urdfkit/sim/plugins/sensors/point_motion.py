@@ -6,7 +6,8 @@ import numpy as np
 
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array, matmul
-from urdfkit.sim.state.robot_state import Snapshot, State
+from urdfkit.sim.state.configuration_snapshot import Snapshot
+from urdfkit.sim.state.robot_state import State
 
 
 @dataclass(frozen=True, eq=False)
