@@ -27,6 +27,11 @@ class Named:
     name: str
     start: int
 
+    @property
+    def end(self) -> int:
+        """Offset after its last character."""
+        return self.start + len(self.name)
+
 
 def typed(source: Source) -> Iterator[Named]:
     """Yield the plugin types in a YAML file: ``package/Class``."""

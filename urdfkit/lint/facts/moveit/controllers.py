@@ -119,7 +119,7 @@ def unspawned(
         is_named = any(re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", each.text) for each in files)
         if joints and not joints & moved and not is_named:
             message = f"no launch file spawns controller `{name}`, which MoveIt uses"
-            yield file.span(last.start, last.start + len(last.name)), message
+            yield file.span(last.start, last.end), message
 
 
 def _joints(one: ControllerSettings) -> set[str]:

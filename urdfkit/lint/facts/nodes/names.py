@@ -134,7 +134,7 @@ def _default(node: LaunchedNode) -> str:
 
 def _span(node: LaunchedNode) -> Span:
     assert node.name is not None
-    return node.source.span(node.name.start, node.name.start + len(node.name.name))
+    return node.source.span(node.name.start, node.name.end)
 
 
 def _short(file: str) -> str:

@@ -74,13 +74,13 @@ def computer_time(model: Model) -> Defects:
                 key, default = (element.attributes.get(each) for each in ("name", "default"))
                 is_key = element.tag == "arg" and key is not None and key.name == _KEY
                 if is_key and default is not None and default.name.lower() == "false" and not reads_ros1(source):
-                    yield source, (default.start, default.start + len(default.name)), _message()
+                    yield source, (default.start, default.end), _message()
                 if element.tag == "include" and not {"if", "unless"} & element.attributes.keys():
                     for child in element.children:
                         key, value = (child.attributes.get(each) for each in ("name", "value"))
                         is_key = child.tag in ("arg", "let") and key is not None and key.name == _KEY
                         if is_key and value is not None and value.name.lower() == "false":
-                            yield source, (value.start, value.start + len(value.name)), _message()
+                            yield source, (value.start, value.end), _message()
 
 
 def _in_parameter_files(model: Model) -> Defects:
@@ -177,4 +177,4 @@ def _family(node: LaunchedNode) -> str:
 
 
 def _name_place(node: LaunchedNode) -> tuple[int, int] | None:
-    return (node.name.start, node.name.start + len(node.name.name)) if node.name is not None else None
+    return (node.name.start, node.name.end) if node.name is not None else None

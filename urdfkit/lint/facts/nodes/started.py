@@ -124,7 +124,7 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str], place
         name is not None,
         tuple(file for file in files if file[0]),
         tuple(remappings),
-        (program.start, program.start + len(program.name)) if program is not None else None,
+        (program.start, program.end) if program is not None else None,
         frozenset(inner) if all(file[0] for file in files) else None,
         False,
         place.namespace,

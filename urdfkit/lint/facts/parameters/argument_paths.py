@@ -99,7 +99,7 @@ def _values_of(source: Source, call: Call, argument: str) -> Iterator[tuple[int,
     if not source.file.endswith(".py"):
         for name, value in passed_values(source, call, True):
             if name == argument:
-                yield value.start, value.start + len(value.name), value.name
+                yield value.start, value.end, value.name
         return
     starts = {name.start for name in call.passed if name.name == argument}
     tree = parsed(source) if starts else None
@@ -128,7 +128,7 @@ def _with_arguments(source: Source) -> Iterator[PackagePath]:
         for one in at.values():
             match = re.fullmatch(_PATH, one.name.strip())
             if match is not None and match[3] is not None:
-                yield PackagePath(match[1], match[2], one.start, one.start + len(one.name))
+                yield PackagePath(match[1], match[2], one.start, one.end)
 
 
 class _Arguments:

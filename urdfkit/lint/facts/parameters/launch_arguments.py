@@ -86,7 +86,7 @@ def _refused(name: str, value: str, expected: Expected, is_passed: bool) -> str 
 
 
 def _span(source: Source, value: Named) -> Span:
-    return source.span(value.start, value.start + len(value.name))
+    return source.span(value.start, value.end)
 
 
 def expected_values(source: Source) -> Expected:

@@ -94,13 +94,12 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
         near = _meant(mention, topics)
         if near is not None and words.occurs_once(_part(mention.topic.name, near)):
             seen.add((mention.source.file, mention.topic.start))
-            start = mention.topic.start
-            span = mention.source.span(start, start + len(mention.topic.name))
+            span = mention.source.span(mention.topic.start, mention.topic.end)
             yield span, mention.topic.name, Suggestion(near, mention.topic.name)
     for mention, others in unpublished(model, words):
-        if (mention.source.file, start := mention.topic.start) not in seen:
+        if (mention.source.file, mention.topic.start) not in seen:
             near = others[0] if len(others) == 1 else nearest(mention.topic.name.strip("/"), others, cutoff=0.75)
-            span = mention.source.span(start, start + len(mention.topic.name))
+            span = mention.source.span(mention.topic.start, mention.topic.end)
             listed = f"; {_listed(mention.type, others)}"
             yield span, mention.topic.name, Suggestion(near, mention.topic.name) if near is not None else listed
     for name, elements in topics.elements.items():

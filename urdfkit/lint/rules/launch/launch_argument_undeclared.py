@@ -87,7 +87,7 @@ class LaunchArgumentUndeclared(RobotRule):
             place = use
             hint = Suggestion(near, use.name)
             message = f"launch argument `{use.name}` is not declared" + hint
-        span = file.source.span(place.start, place.start + len(place.name))
+        span = file.source.span(place.start, place.end)
         severity = "warning" if has_default else self.severity
         yield self.at_span(span, message, severity=severity)
 
@@ -98,7 +98,7 @@ class LaunchArgumentUndeclared(RobotRule):
         included = [each for each in included_files(file, model) if each is not None]
         if any(each.is_computed or use.name in {*each.declared, *each.assigned} for each in included):
             return
-        span = file.source.span(use.start, use.start + len(use.name))
+        span = file.source.span(use.start, use.end)
         message = f"launch argument `{use.name}` is not declared; the file fails unless an including file has it"
         yield self.at_span(span, message, severity="warning", help="declare the argument, with a default")
 

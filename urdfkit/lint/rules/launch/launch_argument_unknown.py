@@ -159,7 +159,7 @@ class LaunchArgumentUnknown(RobotRule):
                 yield self._at(file, name, f"{target} has no argument `{name.name}`" + hint, severity)
 
     def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
-        span = file.source.span(name.start, name.start + len(name.name))
+        span = file.source.span(name.start, name.end)
         return self.at_span(span, message, severity=severity)
 
 

@@ -108,7 +108,7 @@ class LaunchNameMisspelt(RobotRule):
                 message = f"unknown parameter `{parameter.name}` of a node of `{package}`" + Suggestion(
                     near, parameter.name
                 )
-                span = source.span(parameter.start, parameter.start + len(parameter.name))
+                span = source.span(parameter.start, parameter.end)
                 yield self.at_span(span, message, severity="warning", names=(near,))
             for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
                 near = _nearest(world[1], _WORLDS)

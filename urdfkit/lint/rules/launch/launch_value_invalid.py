@@ -97,7 +97,7 @@ class LaunchValueInvalid(RobotRule):
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message, severity="warning")
             for word, message in launch_parameter_defects(source):
-                span = source.span(word.start, word.start + len(word.name))
+                span = source.span(word.start, word.end)
                 yield self.at_span(span, message, severity="warning")
 
 

@@ -53,5 +53,5 @@ class NodeNameMisspelt(RobotRule):
         for span, message in sections_elsewhere(model):
             yield self.at_span(span, message, kind="namespace")
         for source, manager, message in unmanaged_nodelets(model):
-            start = manager.start + len(manager.name) - len(manager.name.rpartition("/")[2])
-            yield self.at_span(source.span(start, manager.start + len(manager.name)), message)
+            start = manager.end - len(manager.name.rpartition("/")[2])
+            yield self.at_span(source.span(start, manager.end), message)

@@ -30,7 +30,7 @@ class XacroArgumentMalformed(RobotRule):
 
         for file in launch_files(model):
             for word in (word for call in file.xacro for word in call.without_colon):
-                end = word.start + len(word.name)
+                end = word.end
                 message = f"`{word.name}=` is not an argument of xacro; write `{word.name}:=`"
                 span = file.source.span(word.start, end + 1)
                 yield self.at_span(span, message)

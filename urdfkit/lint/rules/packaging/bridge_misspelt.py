@@ -99,7 +99,7 @@ class BridgeMisspelt(RobotRule):
             yield self._at(source, reference, message, "topic")
 
     def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
-        span = source.span(reference.start, reference.start + len(reference.name))
+        span = source.span(reference.start, reference.end)
         return self.at_span(span, message, kind=kind)
 
 

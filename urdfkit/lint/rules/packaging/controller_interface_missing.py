@@ -72,7 +72,7 @@ class ControllerInterfaceMissing(RobotRule):
                 if required is not None and unprovided and not missing and is_run:
                     needed = f"`{controller_type.name}` requires the {required} of joint `{unprovided[0]}`"
                     message = f"{needed}, which has no transmission"
-                    span = source.span(controller_type.start, controller_type.start + len(controller_type.name))
+                    span = source.span(controller_type.start, controller_type.end)
                     # Another file may contain the transmissions if the controller has none.
                     has_others = len(unprovided) < len(joints_of(source, controller_type))
                     severity = self.severity if has_others else "note"
@@ -90,7 +90,7 @@ class ControllerInterfaceMissing(RobotRule):
                     right = [element for name, element in parts if name not in missing]
                     elements = (element for name, element in parts if name == missing[0])
                     call = next((place for each in elements if (place := call_of(each, right)) is not None), None)
-                where = source.span(controller_type.start, controller_type.start + len(controller_type.name))
+                where = source.span(controller_type.start, controller_type.end)
                 yield self.at_span(
                     where if call is None else model.span(call),
                     f"`{controller_type.name}` requires the {required} of joint `{missing[0]}`, "

@@ -86,7 +86,7 @@ class ControllerJointUndefined(RobotRule):
                 if not is_misspelt and (is_of_another_robot or model.neighbouring_descriptions.unresolved_package):
                     continue
                 finding = self.at_span(
-                    source.span(reference.start, reference.start + len(reference.name)),
+                    source.span(reference.start, reference.end),
                     f"controller joint `{reference.name}` does not exist in robot `{model.robot.name}`"
                     + Suggestion(suggestion, reference.name),
                     severity="error" if is_misspelt else self.severity,

@@ -73,7 +73,7 @@ class FrameUndefined(RobotRule):
         if not links_by_name:
             return
         for source, frame in unknown_frames(model):
-            span = source.span(frame.start, frame.start + len(frame.name))
+            span = source.span(frame.start, frame.end)
             hint = meant(frame.name, links_by_name)[1]
             message = f"robot `{model.robot.name}` has no link `{frame.name}`, the frame of this driver" + hint
             yield self.at_span(span, message, link=frame.name)

@@ -82,7 +82,7 @@ class LaunchPathMissing(RobotRule):
                 span = each.source.span(each.path.start, each.path.end)
                 if each.value is not None and len(missing) < len(values):
                     source, value = each.value
-                    span = source.span(value.start, value.start + len(value.name))
+                    span = source.span(value.start, value.end)
                 yield self._missing(each.path, span, "")
 
     def _missing(self, reference: PackagePath, span: Span, hint: str) -> Finding:

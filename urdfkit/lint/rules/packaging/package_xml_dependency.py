@@ -275,7 +275,7 @@ class PackageXmlDependency(RobotRule):
                 if is_in_metapackage(name, needed):
                     continue
                 needed.add(name)
-                span = source.span(reference.start, reference.start + len(reference.name))
+                span = source.span(reference.start, reference.end)
                 message = f"missing dependency on `{name}`, which has the controller type `{reference.name}`"
                 help = f"add <exec_depend>{name}</exec_depend> to package.xml"
                 yield self.at_span(span, message, help=help, kind="controller type")

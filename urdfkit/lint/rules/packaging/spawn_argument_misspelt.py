@@ -103,7 +103,7 @@ class SpawnArgumentMisspelt(RobotRule):
                         continue
                     reported.add(word.start)
                     message = f"no node of these packages is in the namespace of `{word.name}`"
-                    span = source.span(word.start, word.start + len(word.name))
+                    span = source.span(word.start, word.end)
                     yield self.at_span(span, message, severity="warning")
                 if node.package == "controller_manager" and node.program in ("spawner", "spawner.py"):
                     for start, text, message in _unknown_options(node, 1 if reads_ros1(source) else 2):
@@ -153,9 +153,7 @@ def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Itera
         pattern = rf"namespace|\bns\s*[=:]|PushR|(?<!\w){re.escape(at[1])}(?:/|\s*:)"
         files = (*model.related_files.values(), *model.expanded.sources.values())
         uses = [(each.file, use.start()) for each in files for use in re.finditer(pattern, each.text)]
-        if not any(
-            file != source.file or not word.start <= start < word.start + len(word.name) for file, start in uses
-        ):
+        if not any(file != source.file or not word.start <= start < word.end for file, start in uses):
             yield word
 
 

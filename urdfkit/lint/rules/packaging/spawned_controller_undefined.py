@@ -77,7 +77,7 @@ class SpawnedControllerUndefined(RobotRule):
                 ):
                     continue
                 yield self.at_span(
-                    source.span(reference.start, reference.start + len(reference.name)),
+                    source.span(reference.start, reference.end),
                     f"unknown controller `{reference.name}`" + hint,
                 )
 

@@ -53,7 +53,7 @@ class TopicUnconnected(RobotRule):
         # Otherwise the commands that the loop leaves without a reader are its consequence.
         unread = unread_commands(model) if not loops else ()
         for source, name, message in (*misnamed_remappings(model), *loops, *unread):
-            span = source.span(name.start, name.start + len(name.name))
+            span = source.span(name.start, name.end)
             yield self.at_span(span, message)
         for node, message, _ in published_together(model):
             if node.place is not None:
