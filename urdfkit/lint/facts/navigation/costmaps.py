@@ -132,9 +132,10 @@ def inscribed_radius(points: Points) -> float:
     inside, distance = False, float("inf")
     for (x, y), (u, v) in pairwise([*points, points[0]]):
         inside ^= (y > 0.0) != (v > 0.0) and x + (u - x) * (0.0 - y) / (v - y) > 0.0
-        length = (u - x) * (u - x) + (v - y) * (v - y)  # ** raises OverflowError for huge numbers
-        at = min(max(-(x * (u - x) + y * (v - y)) / length, 0.0), 1.0) if length else 0.0
-        distance = min(distance, hypot(x + at * (u - x), y + at * (v - y)))
+        length = hypot(u - x, v - y)
+        (dx, dy) = ((u - x) / length, (v - y) / length) if length else (0.0, 0.0)
+        along = min(max(-(x * dx + y * dy), 0.0), length)
+        distance = min(distance, hypot(x + along * dx, y + along * dy))
     return distance if inside else 0.0
 
 
