@@ -27,6 +27,15 @@ GAZEBO = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
 _TIMED = ("robot_localization", "robot_state_publisher", "slam_toolbox", "cartographer_ros")
 """Packages whose nodes compare the times of messages or transforms; those of Nav2 too."""
 
+_STOPPED = ("moveit_ros_move_group", "moveit_servo", "robot_localization", "slam_toolbox", "cartographer_ros")
+"""Packages whose nodes refuse or drop all messages of the other clock; those of Nav2 too.
+
+Source of the first: moveit_ros_planning (current_state_monitor.cpp), which waits for a state newer than its own time.
+"""
+
+_WITNESSES = ("robot_state_publisher", "rviz2", "joint_state_publisher", *_STOPPED)
+"""Packages whose nodes use the clock of the whole launch; those of Nav2 too."""
+
 _FOR_ALL = ("SetParameter", "SetUseSimTime", "set_parameter")
 _IDLE = ("lifecycle_manager", "map_server", "map_saver_server")
 
@@ -37,7 +46,7 @@ Defects = Iterator[tuple[Source, tuple[int, int], str]]
 
 
 def without_clock(model: Model) -> Defects:
-    """Yield the nodes without ``use_sim_time`` in a file where another node of their package has it."""
+    """Yield the nodes without ``use_sim_time`` in a file where another node, mostly of their package, has it."""
     files = parameter_files(model)
     by_file: dict[str, list[LaunchedNode]] = {}
     for node in launched_nodes(model):
@@ -52,13 +61,14 @@ def without_clock(model: Model) -> Defects:
             if node.inline is None or _KEY in node.inline or not is_unset or not _is_timed(node):
                 continue
             other = next((each for each in setting if _family(each) == _family(node)), None)
+            if other is None and not node.is_conditional and _family(node) in (*_STOPPED, "nav2"):
+                other = next((each for each in setting if _family(each) in (*_WITNESSES, "nav2")), None)
             is_python = node.source.file.endswith(".py")
             at = (None if is_python else _name_place(node)) or node.place
             if other is not None and at is not None:
                 label = node.name.name if node.name is not None else node.program
-                message = f"node `{label}` has no `{_KEY}`, but the other `{other.program}` has it"
-                same = node.program == other.program
-                yield source, at, message if same else message.replace("the other ", "")
+                same = "the other " if node.program == other.program else ""
+                yield source, at, f"node `{label}` has no `{_KEY}`, but {same}`{other.program}` has it"
 
 
 def computer_time(model: Model) -> Defects:
@@ -169,7 +179,7 @@ def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:
 
 def _is_timed(node: LaunchedNode) -> bool:
     is_navigation = node.package.startswith("nav2_") and node.program in NODES and node.program not in _IDLE
-    return bool(node.program) and (node.package in _TIMED or is_navigation)
+    return bool(node.program) and (node.package in (*_TIMED, *_STOPPED) or is_navigation)
 
 
 def _family(node: LaunchedNode) -> str:

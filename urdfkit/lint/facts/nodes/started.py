@@ -40,7 +40,8 @@ class LaunchedNode:
         files: package and path of the parameter files that it loads.
         remappings: old and new name of each remapping with constant names.
         place: first and last offset of its executable.
-        inline: names of its parameters outside of files; None if there can be others.
+        inline: names of its parameters outside of files; None if there can be others. The parameters that
+            MoveItConfigsBuilder reads count as ``robot_description``.
         has_more_remappings: whether there can be more remappings, with computed names.
         namespace: its namespace in the launch file without slashes at its ends; None if it is computed.
         spaced_by: the innermost attribute that sets the namespace.
@@ -165,7 +166,7 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 tuple(file for file in files if file is not None),
                 remappings,
                 place(source, words["executable"]) if "executable" in words else None,
-                _inline(call, items, binding, reader, files),
+                _inline(source, call, items, binding, reader, files),
                 any(word.arg is None for word in call.keywords) or _has_more(values.get("remappings"), len(remappings)),
                 space.strip("/") if space is not None else None,
                 None,
@@ -173,7 +174,29 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
             )
 
 
+_BUILDER, _MOST_CALLS = "MoveItConfigsBuilder", 40
+_CHANGED = r"\.update\(|\[\s*[\"']use_sim_time[\"']\s*\]\s*="
+"""Matches a launch file that adds parameters to a dictionary."""
+
+
+def _is_of_moveit(node: ast.expr | None, reader: LaunchReader, source: Source) -> bool:
+    """Return whether an expression is a part of a MoveIt configuration, which has no parameters of other nodes."""
+    if _BUILDER not in source.text or re.search(_CHANGED, source.text):
+        return False
+    for _ in range(_MOST_CALLS):
+        if isinstance(node, ast.Call):
+            if name_of(node.func) == _BUILDER:
+                return True
+            node = node.func
+        elif isinstance(node, ast.Attribute):
+            node = node.value
+        elif isinstance(node, ast.Name):
+            node = reader.assigned.get(node.id)
+    return False
+
+
 def _inline(
+    source: Source,
     call: ast.Call,
     items: list[ast.expr],
     binding: Binding,
@@ -187,6 +210,8 @@ def _inline(
         value = reader.assigned.get(value.id) if isinstance(value, ast.Name) else value
         if isinstance(value, ast.Dict):
             found |= {reader.text(key) if key is not None else None for key in value.keys}
+        elif file is None and _is_of_moveit(value, reader, source):
+            found.add("robot_description")
         elif file is None:
             return None
     is_open = None in found or None in words or (not items and "parameters" in words)

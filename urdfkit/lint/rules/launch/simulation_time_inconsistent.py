@@ -10,8 +10,9 @@ class SimulationTimeInconsistent(RobotRule):
 
     ## What it does
     Checks ROS 2 launch files. Reports filters, localization, navigation servers and ``robot_state_publisher`` without
-    ``use_sim_time`` if another node of the same package in the file has it. In files that always start Gazebo, also
-    reports such nodes and included launch files if their ``use_sim_time`` is false. The rule also reads parameter
+    ``use_sim_time`` if another node of the same package in the file has it, and ``move_group``, servo nodes, filters,
+    localization and navigation servers if ``robot_state_publisher`` or RViz has it. In files that always start Gazebo,
+    also reports such nodes and included launch files if their ``use_sim_time`` is false. The rule also reads parameter
     files. Files that set the parameter for all nodes are not checked.
 
     ## Why is this bad?
