@@ -1,13 +1,16 @@
-"""Lists of joint positions in the parameters of a robot's own nodes, next to the list of these joints."""
+"""Positions of joints in the parameters of a robot's own nodes: beyond their limits, or in degrees or millimetres."""
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
+from urdfkit.lint.facts.topics.words import Words
+from urdfkit.lint.model.model import Model
 
 _JOINTS = ("joints", "joint_names")
 _NO_POSITIONS = (
@@ -61,3 +64,104 @@ def _beyond(list_name: str, value: Node, names: list[str], robot: Robot) -> Iter
             found.append((item, f"`{list_name}` has {number:g} for joint `{name}`, whose limits are {bounds}"))
     if 2 * len(found) < len(names):
         yield from found
+
+
+_POSITION = r"home|pose|position|initial|ready|rest|stow|park|fold|waypoint|goal|target|start|angle|configuration"
+"""Matches names of positions of several joints."""
+
+_OF_ONE = r"(?:position|pose|angle|width|opening|home|open|closed?)$"
+"""Matches names of positions of one joint."""
+
+_CONVERTED = {
+    "degrees": r"(?i)radians\s*\(|deg\w*2\w*rad|deg\w*_to_rad|/\s*180|180\.?0?\s*\*",
+    "millimetres": r"(?i)/\s*1000|\*\s*0?\.001|\*\s*1e-3",
+}
+"""Unit → pattern of code that converts it."""
+
+_WRITTEN = r"(?i)deg|\bmm\b|_mm\b|millimet"
+"""Matches a file that names one of these units."""
+
+_FACTORS = {"degrees": math.pi / 180.0, "millimetres": 1e-3}
+_LEAST = 3
+"""Fewest values of a list without the names of its joints."""
+
+
+def positions_in_other_units(model: Model) -> Iterator[tuple[Source, Node, str]]:
+    """Yield the positions beyond the limits of their joints that are within them as degrees or millimetres.
+
+    Files and code that name the unit, or convert it, are accepted.
+    """
+    robot, words = model.robot, None
+    for source in yamls(model):
+        if re.search(_WRITTEN, source.text):
+            continue
+        seen = set[tuple[int, int]]()
+        for key, values in _positions(source, model):
+            found = [(unit, *each) for unit in _FACTORS if (each := _outside(values, robot, unit)) is not None]
+            if not found or (found[0][2].line, found[0][2].column) in seen:
+                continue
+            unit, joint, value, bounds = found[0]
+            seen.add((value.line, value.column))
+            words = words or Words(model)
+            if not words.match(_CONVERTED[unit]):
+                right = "radians" if unit == "degrees" else "metres"
+                message = f"`{key}` has {value.text} for joint `{joint}`, whose limits are {bounds}; write {right}"
+                yield source, value, message + f", if the values are {unit}"
+
+
+def _positions(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[str, Node]]]]:
+    """Yield the name of positions of joints, and the value of each joint."""
+    robot = model.robot
+    for group in (node for node in nodes(source) if node.entries):
+        listed = next((each for name in (*_JOINTS, "joint") if (each := group.find(name)) is not None), None)
+        names = listed.texts() if listed is not None else []
+        for key, value in group.entries:
+            is_other, is_position = _is_other(key.text), re.search(_POSITION, key.text, re.IGNORECASE) is not None
+            points = [point for item in value.items if (point := item.find("positions")) is not None]
+            if len(names) == 1 and re.search(_OF_ONE, key.text) and number_of(value) is not None:
+                yield key.text, [(names[0], value)]
+            if is_other or value is listed or not (is_position or points):
+                continue
+            pairs = [(each.text, inner) for each, inner in value.entries]
+            if pairs and all(name in robot.joint_by_name for name, _ in pairs):
+                yield key.text, pairs
+            for numbers in (value, *points) if names else ():
+                if len(numbers.items) == len(names) and _is_numbers(numbers):
+                    yield key.text, list(zip(names, numbers.items, strict=True))
+            if not names and len(value.items) >= _LEAST and _is_numbers(value):
+                sets = {each for each in _groups(model) if len(each) == len(value.items)}
+                if len(sets) == 1:
+                    yield key.text, list(zip(sets.pop(), value.items, strict=True))
+
+
+def _groups(model: Model) -> set[tuple[str, ...]]:
+    """Return the lists of joints of the robot in its YAML files."""
+    found = set[tuple[str, ...]]()
+    for source in yamls(model):
+        for group in (node for node in nodes(source) if node.entries):
+            for name in _JOINTS:
+                joints = group.find(name)
+                names = tuple(joints.texts()) if joints is not None else ()
+                if names and all(each in model.robot.joint_by_name for each in names):
+                    found.add(names)
+    return found
+
+
+def _outside(values: list[tuple[str, Node]], robot: Robot, unit: str) -> tuple[str, Node, str] | None:
+    """Return the first joint and value beyond the limits, and these, if all values are within them in a unit."""
+    kind = "revolute" if unit == "degrees" else "prismatic"
+    first, factor = None, _FACTORS[unit]
+    for name, value in values:
+        joint, number = robot.joint_by_name.get(name), number_of(value)
+        limit = joint.limit if joint is not None and joint.type == kind else None
+        if limit is None or limit.lower is None or limit.upper is None or not limit.lower < limit.upper:
+            continue
+        if number is None or (unit == "degrees" and 0.0 < abs(number) < 1.0):
+            return None
+        slack = 0.02 * (limit.upper - limit.lower)
+        if not limit.lower - slack <= factor * number <= limit.upper + slack:
+            return None
+        is_beyond = not limit.lower - slack <= number <= limit.upper + slack
+        if first is None and is_beyond:
+            first = name, value, f"{limit.lower:g} to {limit.upper:g}"
+    return first

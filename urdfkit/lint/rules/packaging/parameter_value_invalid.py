@@ -30,7 +30,7 @@ class ParameterValueInvalid(RobotRule):
     - rates, wheel sizes, limits and tolerances that are negative, zero or not a number
     - numbers and truth values in quotes, and names that are not in a list
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
-    - lists of joint positions that lack a value or exceed the limits of a joint
+    - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
     - minimum velocities above zero, and parameters that are indented to the level of controllers
 
     ## Why is this bad?
@@ -91,14 +91,15 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.navigation.nav2_plugins import nav2_defects
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
         from urdfkit.lint.facts.navigation.sections import costmaps_not_nested
-        from urdfkit.lint.facts.parameters.joint_lists import list_defects
+        from urdfkit.lint.facts.parameters.joint_lists import list_defects, positions_in_other_units
         from urdfkit.lint.facts.parameters.node_parameters import node_defects, node_defects_of_ros1
         from urdfkit.lint.facts.parameters.ranges import out_of_order
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
         names = frozenset(name for source in yamls(model) for name in controllers(source))
-        for source, place, message in (*published_twice(model), *node_defects_of_ros1(model)):
+        of_workspace = (*published_twice(model), *node_defects_of_ros1(model), *positions_in_other_units(model))
+        for source, place, message in of_workspace:
             yield self.at_span(span_of(source, place), message)
         for source in yamls(model):
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()
