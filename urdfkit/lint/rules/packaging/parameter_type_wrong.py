@@ -4,11 +4,12 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ParameterTypeWrong(RobotRule):
-    """A ROS 2 parameter is an integer where the node expects a number with a decimal point.
+    """A ROS 2 parameter has another type than the node declares, such as an integer for a number with a decimal point.
 
     ## What it does
     Compares the numbers in the parameters of ros2_controllers, Nav2 and robot_localization, and in the joint limits of
-    MoveIt 2, with the types that the nodes declare. Also checks lists of numbers in the parameters of all ROS 2 nodes:
+    MoveIt 2, with the types that the nodes declare. Parameters of the nodes of the workspace are compared with the
+    defaults that their Python or C++ code declares. Also checks lists of numbers in the parameters of all ROS 2 nodes:
     the elements of a list must have one type.
 
     ## Why is this bad?
@@ -42,8 +43,11 @@ class ParameterTypeWrong(RobotRule):
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.settings import integer_limits, moveit_yamls
         from urdfkit.lint.facts.navigation.defects import wrong_numbers
+        from urdfkit.lint.facts.parameters.declared_types import wrong_types_of_own_nodes
         from urdfkit.lint.facts.parameters.node_parameters import wrong_numbers_of_nodes
 
+        for source, value, message in wrong_types_of_own_nodes(model):
+            yield self.at_span(span_of(source, value), message)
         for source in {each.file: each for each, _ in moveit_yamls(model)}.values():
             for value, name in integer_limits(source) if ros_version(source) == 2 else ():
                 message = f"`{name}` is the integer {value.text}; write {value.text}.0"
