@@ -18,7 +18,7 @@ import numpy as np
 from tests.bench.bench_kinematics import TOLERANCE, chains
 from tests.kinematics.arms import Reference, errors
 from urdfkit.kinematics import Chain, ReachMap, reach_map
-from urdfkit.kinematics.reach.orientations import rotations
+from urdfkit.linear_algebra import rotations
 
 MARGIN = 3
 CHECKED = 5000
