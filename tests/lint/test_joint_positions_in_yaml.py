@@ -29,6 +29,7 @@ CASES = [
     ("joint: j_jaw\nopen_position: 25\n", MILLIMETRES + "millimetres"),
     ("initial_positions:\n  j1: 0\n  j2: 45  # degrees\n  j3: -90\n", ""),
     (LISTED.format("[0.0, 0.8, -1.6]") + "    stiffness: [10, 45, 90]\n", ""),
+    (LISTED.format("[0.0, 0.8, -1.6]") + "wheels:\n  pose_covariance_diagonal: [7, 14, 21]\n", ""),
     ("initial_positions:\n  j1: 0.5\n  j2: 1.2\n  j3: -2.0\n", ""),
     ("joint: j_jaw\nopen_position: 0.025\nspeed: 25\n", ""),
 ]

@@ -8,14 +8,13 @@ from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import controllers
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
 
 _JOINTS = ("joints", "joint_names")
-_NO_POSITIONS = (
-    r"gain|vel|acc|jerk|effort|torque|current|tolerance|weight|limit|scal|offset|sign|ratio|time|id|index|max"
-)
+_NO_POSITIONS = r"gain|vel|acc|jerk|effort|torque|current|tolerance|weight|limit|scal|offset|sign|ratio|time|id|index|max|covar|noise"
 """Matches names of lists that are not positions of joints."""
 
 _FEWEST = 4
@@ -111,7 +110,7 @@ def positions_in_other_units(model: Model) -> Iterator[tuple[Source, Node, str]]
 
 def _positions(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[str, Node]]]]:
     """Yield the name of positions of joints, and the value of each joint."""
-    robot = model.robot
+    robot, is_of_controllers = model.robot, bool(controllers(source))
     for group in (node for node in nodes(source) if node.entries):
         listed = next((each for name in (*_JOINTS, "joint") if (each := group.find(name)) is not None), None)
         names = listed.texts() if listed is not None else []
@@ -128,7 +127,7 @@ def _positions(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[s
             for numbers in (value, *points) if names else ():
                 if len(numbers.items) == len(names) and _is_numbers(numbers):
                     yield key.text, list(zip(names, numbers.items, strict=True))
-            if not names and len(value.items) >= _LEAST and _is_numbers(value):
+            if not names and not is_of_controllers and len(value.items) >= _LEAST and _is_numbers(value):
                 sets = {each for each in _groups(model) if len(each) == len(value.items)}
                 if len(sets) == 1:
                     yield key.text, list(zip(sets.pop(), value.items, strict=True))
