@@ -1,10 +1,11 @@
 """J416 mimic-joint-undefined."""
 
 from urdfkit.description.urdf.robot import Joint
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.twins import mirrored, side_of
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import Findings, Model, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class MimicJointUndefined(RobotRule):
@@ -13,7 +14,8 @@ class MimicJointUndefined(RobotRule):
     ## What it does
     Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
     contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either. Also
-    reports joints that mimic one of the other side, if their own side has that joint and it mimics no other.
+    reports joints that mimic one of the other side, if their own side has that joint and it mimics no other, and mimic
+    plugins of Gazebo Classic that name undefined joints, or the two joints in the other order.
 
     ## Why is this bad?
     Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.
@@ -89,6 +91,25 @@ class MimicJointUndefined(RobotRule):
                 kind="undefined",
             )
             yield from unless_masked(model, mimic.joint, suggestion, finding)
+        for block in model.robot.gazebo:
+            for plugin in block.plugins if model.target not in NOT_GAZEBO else ():
+                if "mimic_joint" in (plugin.filename or ""):
+                    yield from self._of_plugin(plugin.element, model)
+
+    def _of_plugin(self, plugin: Element, model: Model) -> Findings:
+        """Yield the defects of a mimic plugin of Gazebo Classic (README.md of roboticsgroup_gazebo_plugins)."""
+        joints = model.robot.joint_by_name
+        leader, follower = plugin.find("joint"), plugin.find("mimicJoint")
+        for element in (leader, follower):
+            if element is not None and element.text not in joints and "$" not in element.text:
+                suggestion, hint = meant(element.text, list(joints))
+                message = f"<{element.tag}> names the undefined joint `{element.text}`{hint}"
+                yield from unless_masked(model, element.text, suggestion, self.at(model, element, message))
+        led = joints.get(leader.text) if leader is not None else None
+        if led is not None and led.mimic is not None and follower is not None and led.mimic.joint == follower.text:
+            message = f"`{led.name}` mimics `{follower.text}`, but the plugin makes `{follower.text}` follow it"
+            help = "exchange the names in <joint> and <mimicJoint>"
+            yield self.at(model, leader or plugin, message, joint=led.name, help=help, severity="warning")
 
 
 def _on_own_side(joint: Joint, master: str, model: Model) -> str:
