@@ -7,6 +7,7 @@ from math import dist, hypot, inf
 from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
+from urdfkit.lint.facts.placement.twin_overlaps import overlapping_twins
 from urdfkit.lint.facts.root_cause import shared_argument
 from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, twins
 from urdfkit.lint.model.placement import shapes_of
@@ -40,6 +41,7 @@ class TwinsMisplaced(RobotRule):
     - sides and ends that are exchanged
     - joints with equal offsets on parents whose shapes are mirrored
     - shapes with equal offsets on links whose joints are mirrored
+    - links of the two sides, except hands and cameras, that lie in each other with every joint at zero
 
     ## Why is this bad?
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
@@ -98,11 +100,17 @@ class TwinsMisplaced(RobotRule):
         for joint, message in (*_exchanged(model), *_equal_below_mirrored(model)) if not found else ():
             origin = joint.element.find("origin") or joint.element
             help = "check the signs of the coordinates"
+            found.add(joint.name)
             yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
             break
         for unmirrored, place, message in unmirrored_shapes(model) if not found else ():
             help = "check the sign of the offset"
+            found.add(unmirrored.name)
             yield self.at(model, place, message, attribute="xyz", link=unmirrored.name, help=help)
+            break
+        for overlapping, place, message in overlapping_twins(model) if not found else ():
+            help = "check their sizes, and the distance of the sides"
+            yield self.at(model, place, message, link=overlapping.name, help=help)
             break
 
 
