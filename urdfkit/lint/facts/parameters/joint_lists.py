@@ -14,7 +14,10 @@ from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
 
 _JOINTS = ("joints", "joint_names")
-_NO_POSITIONS = r"gain|vel|acc|jerk|effort|torque|current|tolerance|weight|limit|scal|offset|sign|ratio|time|id|index|max|covar|noise"
+_NO_POSITIONS = (
+    r"gain|vel|acc|jerk|effort|torque|current|tolerance|weight|limit|scal|offset|sign|ratio|time|id|index|max"
+    r"|covar|noise"
+)
 """Matches names of lists that are not positions of joints."""
 
 _FEWEST = 4
