@@ -153,6 +153,7 @@ def _store(x: Any, at: int, values: VectorOfNumbers) -> None:
 REPLACEMENTS: dict[str, Any] = {
     "world": lambda world, _: world,
     "load6": _load(6),
+    "load8": _load(8),
     "load16": _load(16),
     "store": _store,
 }

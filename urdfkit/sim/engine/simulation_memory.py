@@ -55,7 +55,8 @@ def _sizes(*rows: str) -> dict[str, Size]:
 
 # name:shape; the letters are counts: b bodies, d dofs, s coordinates, k shapes, p vertices, m mimic joints,
 # c contacts, r rows, a slots of remembered impulses, t trees, e entries of all their mass matrices, y entries of rows,
-# q entries of a matrix of rows, f pairs of shapes, n numbers and i indices of hulls and meshes in pairs, l links.
+# q entries of a matrix of rows, f pairs of shapes, n numbers and i indices of hulls and meshes in pairs, l links,
+# h entries of branches.
 FLOATS = _sizes(
     # the trees: robots and free bodies
     "place_R:b,9 place_p:b,3 mass:b centre:b,3 tensor:b,6 weightless:b weightless_centre:b,3 subspace:d,6",
@@ -77,7 +78,7 @@ FLOATS = _sizes(
     "row_stiffness:r near_x:r ahead:r velocity:r shape_mu2:k floor_mu2:k shape_along:k,3 ki:d i_min:d i_max:d",
     "antiwindup:d feedforward:d integral:d i_part:d rigid_kd:d turn:b,2",
     f"odometry:t,{ODOMETRY} encoder:t,{ENCODERS},{ENCODER}",
-    "K:e push:b,36 reach:b,6 load:b,6 pair:6 u_free:d link_R:l,9 link_p:l,3",
+    "K_rows:h K_columns:h push:b,36 reach:b,6 load:b,6 pair:6 u_free:d link_R:l,9 link_p:l,3",
     # poses of links, at any coordinates
     "read_s:s read_R:b,9 read_p:b,3 link_pose:l,7",
 )
@@ -88,7 +89,8 @@ INTEGERS = _sizes(
     "island_next:t island_contact:t block_tree:t tree_block:t block_first:t+1 pair_a:f pair_b:f",
     f"last_a:c last_b:c last_feature:c last_at:c pair_indices:i pair_work_indices:{memory.WORK_INDICES}",
     "found_feature:8 body_tree:b kind:b parent:b first_s:b first_v:b+1 body_last_dof:b dof_parent:d dof_s:d",
-    "dof_row:d mimic_dof:m mimic_master:m shape_kind:k shape_body:k shape_feature:k shape_vertex:k+1",
+    "dof_row:d dof_branch:d dof_depth:d branch:h mimic_dof:m mimic_master:m shape_kind:k shape_body:k",
+    "shape_feature:k shape_vertex:k+1",
     "shape_owner:k shape_meets:k shape_data:k contact_body:c contact_other:c contact_shape:c contact_against:c",
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
     "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
@@ -96,7 +98,7 @@ INTEGERS = _sizes(
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.
-LETTERS = "bdskpmcrateyqfnil"
+LETTERS = "bdskpmcrateyqfnilh"
 HEAD = len(LETTERS) + 1
 (BODIES, DOFS, COORDINATES, SHAPES, VERTICES, MIMICS, CONTACTS, ROWS, SLOTS, TREES) = range(10)
 PAIRS, MATRIX, WIDTH = LETTERS.index("f"), LETTERS.index("q"), len(LETTERS)

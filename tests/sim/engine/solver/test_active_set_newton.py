@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow  # in a fresh checkout: the function of the tests 
 
 def solved(A, g, low, high, mu, before=None):
     n = len(g)
-    arrays = allocate([1, 6, 7, 0, 0, 0, 0, n, 0, 1, 36, 6 * n, n * n, 0, 0, 0, 0], width=6)
+    arrays = allocate([1, 6, 7, 0, 0, 0, 0, n, 0, 1, 36, 6 * n, n * n, 0, 0, 0, 0, 0], width=6)
     arrays["A"][:], arrays["g"][:], arrays["low"][:], arrays["high"][:], arrays["mu"][:] = A.ravel(), g, low, high, mu
     if before is not None:
         arrays["before"][:] = before

@@ -1,5 +1,6 @@
 """One robot or free body → its part of the engine's arrays."""
 
+import itertools
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,6 +10,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, PRISMATIC, REVOLUTE
+from urdfkit.sim.engine.math.simd import STRIP
 from urdfkit.sim.engine.simulation_memory import Arrays
 
 KINDS = {1: (PRISMATIC, REVOLUTE), 3: (PLANAR, PLANAR), 6: (FREE, FREE)}
@@ -157,3 +159,21 @@ def _fill_joint(arrays: Arrays, b: int, first: int, at: int, subspace: Array, ab
         arrays["dof_s"][d] = at + k
         arrays["dof_parent"][d] = d - 1 if k else above
     return at + (n if n < 6 else 7)
+
+
+def branch_entries(dofs: int) -> int:
+    """Return how many entries the branches of a tree of so many dofs need."""
+    return dofs * -(-dofs // STRIP) * STRIP
+
+
+def fill_branches(arrays: Arrays) -> None:
+    """Write which dofs carry each dof, from the root on, and itself."""
+    parents, firsts = arrays["dof_parent"].tolist(), arrays["tree_dof"].tolist()
+    at = 0
+    for first, beyond in itertools.pairwise(firsts):
+        branches: dict[int, list[int]] = {-1: []}
+        for d in range(first, beyond):
+            branches[d] = [*branches[parents[d]], d]
+            arrays["dof_branch"][d], arrays["dof_depth"][d] = at, len(branches[d]) - 1
+            arrays["branch"][at : at + len(branches[d])] = branches[d]
+            at += branch_entries(beyond - first) // (beyond - first)

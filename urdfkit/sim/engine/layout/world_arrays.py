@@ -13,7 +13,7 @@ from urdfkit.sim.engine.contact_surface import Ground, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT
 from urdfkit.sim.engine.layout.collision_shapes import box_of, still_box
-from urdfkit.sim.engine.layout.tree_arrays import fill_free, fill_member
+from urdfkit.sim.engine.layout.tree_arrays import branch_entries, fill_branches, fill_free, fill_member
 from urdfkit.sim.engine.simulation_memory import Arrays, allocate
 
 PAIRS, PAIRS_EACH = 32768, 64
@@ -76,6 +76,7 @@ def fill(
         len(geometry.numbers),
         len(geometry.indices),
         sum(links),
+        sum(branch_entries(n) for n in dofs),
     )
     arrays = allocate(sizes, width=width)
     arrays["numbers"][:] = dt, ground.height if ground else 0.0, ground is not None, meets
@@ -101,6 +102,7 @@ def fill(
         fill_member(arrays, tree, member)
     for tree, body in enumerate(free, len(members)):
         fill_free(arrays, tree, body)
+    fill_branches(arrays)
     arrays["shape_data"][:] = places
     arrays["pair_numbers"][:], arrays["pair_indices"][:] = geometry.numbers, geometry.indices
     _fill_shapes(arrays, touches, features, 100.0 if ground is None else ground.mu)

@@ -1,4 +1,4 @@
-"""SIMD operations on fields: ``load6(x, at)``, ``load16(x, at)``, sums, multiples, and ``store``.
+"""SIMD operations on fields: ``load6(x, at)``, ``load8(x, at)``, ``load16(x, at)``, sums, multiples, and ``store``.
 
 Free bodies have six dofs, and rows are processed sixteen at a time. Each operation compiles to one or two instructions,
 where the compiler would otherwise emit one per number, because it does not vectorise these loops itself.
@@ -16,6 +16,10 @@ FLAGS = ("contract",)
 """As `compilation.OPTIONS` has it: a product and a sum may be one instruction."""
 
 
+STRIP = 8
+"""How many entries of a branch of a robot are taken at a time."""
+
+
 @inlined
 def padded(n: int) -> int:
     """Return n rounded up to a multiple of `LANES`."""
@@ -24,6 +28,8 @@ def padded(n: int) -> int:
 
 load6: Any = deferred("math.simd_types", "load6")
 """Load six numbers of a field: ``load6(x, at)``."""
+load8: Any = deferred("math.simd_types", "load8")
+"""Load eight numbers of a field: ``load8(x, at)``."""
 load16: Any = deferred("math.simd_types", "load16")
 """Load sixteen numbers of a field: ``load16(x, at)``."""
 store: Any = deferred("math.simd_types", "store")

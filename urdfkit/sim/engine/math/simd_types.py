@@ -12,7 +12,7 @@ from numba.core.typing.templates import AbstractTemplate, infer_global, signatur
 from numba.extending import intrinsic, lower_builtin, register_model
 
 from urdfkit.sim.engine.field_type import of_kind
-from urdfkit.sim.engine.math.simd import FLAGS, LANES
+from urdfkit.sim.engine.math.simd import FLAGS, LANES, STRIP
 
 
 class Numbers(types.Type):
@@ -28,7 +28,7 @@ class Numbers(types.Type):
         return ir.VectorType(ir.DoubleType(), self.count)
 
 
-SIX, SIXTEEN = Numbers(6), Numbers(LANES)
+SIX, EIGHT, SIXTEEN = Numbers(6), Numbers(STRIP), Numbers(LANES)
 
 
 @register_model(Numbers)
@@ -111,6 +111,8 @@ def _put(typing: Any, x: Any, at: Any, numbers: Any) -> Any:
 
 load6: Any = _reading(SIX)
 """Load six numbers of a field: ``load6(x, at)``."""
+load8: Any = _reading(EIGHT)
+"""Load eight numbers of a field: ``load8(x, at)``."""
 load16: Any = _reading(SIXTEEN)
 """Load sixteen numbers of a field: ``load16(x, at)``."""
 store: Any = intrinsic(_put)

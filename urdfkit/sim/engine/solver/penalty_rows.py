@@ -218,4 +218,4 @@ def linearise(
         if w.low[k] < z < w.high[k]:
             d = dof_of(w, k)
             entry = w.Y[k * stride + d - first]
-            w.K[w.dof_row[d] + d] += penalty * entry * entry
+            w.K_rows[w.dof_branch[d] + w.dof_depth[d]] += penalty * entry * entry

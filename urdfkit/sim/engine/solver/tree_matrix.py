@@ -1,8 +1,12 @@
 """Linear algebra along the branches of a tree: J·x, Jᵀ·x and the matrix M + Jᵀ·C·J of its contacts with fixed shapes.
 
 A contact moves with its body, so all contacts of a body act as one stiffness of six by six on its twist, which is
-passed on to the parent as inertias are. The matrix has entries only between dofs of one branch, as M has, and is
+passed on to the parent as inertias are. The matrix K has entries only between dofs of one branch, as M has, and is
 factored from the tips to the root without filling in. So the work grows with the dofs, not with the contacts.
+
+``K_rows`` has the row of each dof up to its diagonal, ``K_columns`` its column above. Of both only the entries of the
+dofs that carry it are stored, in the order of ``branch``, which lists these from the root on. So entries of two dofs of
+one branch for the same dof are at the same place, and eight of them are processed at once.
 
 Source: R. Featherstone, Rigid Body Dynamics Algorithms, 2008, sections 6.2 and 6.5.
 """
@@ -11,7 +15,7 @@ from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
-from urdfkit.sim.engine.math.simd import load6, store
+from urdfkit.sim.engine.math.simd import STRIP, load6, load8, store
 from urdfkit.sim.engine.math.spatial_algebra import (
     ZERO,
     add,
@@ -79,12 +83,10 @@ def assemble_tree(w: KernelWorld, tree: int, inertia: Any) -> None:
         if not w.push[at] + w.push[at + 7] + w.push[at + 14] > 0.0:
             # Neither this body nor the bodies that it carries have a contact.
             for d in range(w.first_v[b], w.first_v[b + 1]):
-                row = w.dof_row[d]
-                w.K[row + d] = inertia[d]
-                e = w.dof_parent[d]
-                while e >= 0:
-                    w.K[row + e] = w.K[w.dof_row[e] + d] = w.M[row + e]
-                    e = w.dof_parent[e]
+                row, start, depth = w.dof_row[d], w.dof_branch[d], w.dof_depth[d]
+                w.K_rows[start + depth] = inertia[d]
+                for j in range(start, start + depth):
+                    w.K_rows[j] = w.K_columns[j] = w.M[row + w.branch[j]]
             continue
         for d in range(w.first_v[b], w.first_v[b + 1]):
             own = load_spatial(w.S, d)
@@ -106,14 +108,12 @@ def assemble_tree(w: KernelWorld, tree: int, inertia: Any) -> None:
                 spatial_dot(load_spatial(w.push, 6 * b + 4), own),
                 spatial_dot(load_spatial(w.push, 6 * b + 5), own),
             )
-            row = w.dof_row[d]
-            w.K[row + d] = inertia[d] + dot(own[0], linear) + dot(own[1], angular)
-            e = w.dof_parent[d]
-            while e >= 0:
-                other, mass = load_spatial(w.S, e), w.M[row + e]
-                w.K[row + e] = mass + spatial_dot(behind, other)
-                w.K[w.dof_row[e] + d] = mass + dot(linear, other[0]) + dot(angular, other[1])
-                e = w.dof_parent[e]
+            row, start, depth = w.dof_row[d], w.dof_branch[d], w.dof_depth[d]
+            w.K_rows[start + depth] = inertia[d] + dot(own[0], linear) + dot(own[1], angular)
+            for j in range(start, start + depth):
+                other, mass = load_spatial(w.S, w.branch[j]), w.M[row + w.branch[j]]
+                w.K_rows[j] = mass + spatial_dot(behind, other)
+                w.K_columns[j] = mass + dot(linear, other[0]) + dot(angular, other[1])
         above = w.parent[b]
         if above >= 0:
             to = 36 * above
@@ -123,24 +123,28 @@ def assemble_tree(w: KernelWorld, tree: int, inertia: Any) -> None:
 
 @compiled
 def factor_tree(w: KernelWorld, tree: int) -> bool:
-    """Factor K in place, from the tips to the root (K is not symmetric); return whether it is regular."""
+    """Factor K in place, from the tips to the root (K is not symmetric); return whether it is regular.
+
+    Pivots may be negative, as where friction jams a body: a step of Newton's method only needs K to be regular.
+    """
     first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
+    rows, columns = w.K_rows, w.K_columns
     for k in range(beyond - 1, first - 1, -1):
-        row = w.dof_row[k]
-        if not w.K[row + k] > LEAST_PIVOT * w.M[row + k]:
+        row, depth = w.dof_branch[k], w.dof_depth[k]
+        if not abs(rows[row + depth]) > LEAST_PIVOT * w.M[w.dof_row[k] + k]:
             return False
-        inverse = 1.0 / w.K[row + k]
-        w.K[row + k] = inverse
-        i = w.dof_parent[k]
-        while i >= 0:
-            above = w.dof_row[i]
-            c = w.K[above + k] * inverse
-            w.K[above + k] = c
-            j = w.dof_parent[k]
-            while j >= 0:
-                w.K[above + j] -= c * w.K[row + j]
-                j = w.dof_parent[j]
-            i = w.dof_parent[i]
+        inverse = 1.0 / rows[row + depth]
+        for m in range(depth - 1, -1, -1):
+            above = w.dof_branch[w.branch[row + m]]
+            c, e = columns[row + m] * inverse, rows[row + m] * inverse
+            # What this writes after the entries of a row is never used.
+            for j in range(0, m + 1, STRIP):
+                store(rows, above + j, load8(rows, above + j) - c * load8(rows, row + j))
+                store(columns, above + j, load8(columns, above + j) - e * load8(columns, row + j))
+        for j in range(row, row + depth, STRIP):
+            store(columns, j, inverse * load8(columns, j))
+        # Numbers that were written one by one are slow to load eight at a time.
+        rows[row + depth] = inverse
     return True
 
 
@@ -149,33 +153,27 @@ def solve_tree(w: KernelWorld, tree: int, x: Any) -> None:
     """Turn the entries of x for a tree's dofs into K⁻¹·x, with the factors of K."""
     first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
     for k in range(beyond - 1, first - 1, -1):
-        xk = x[k]
-        i = w.dof_parent[k]
-        while i >= 0:
-            x[i] -= w.K[w.dof_row[i] + k] * xk
-            i = w.dof_parent[i]
+        xk, start = x[k], w.dof_branch[k]
+        for j in range(start, start + w.dof_depth[k]):
+            x[w.branch[j]] -= w.K_columns[j] * xk
     for k in range(first, beyond):
-        row = w.dof_row[k]
+        start, depth = w.dof_branch[k], w.dof_depth[k]
         total = x[k]
-        j = w.dof_parent[k]
-        while j >= 0:
-            total -= w.K[row + j] * x[j]
-            j = w.dof_parent[j]
-        x[k] = total * w.K[row + k]
+        for j in range(start, start + depth):
+            total -= w.K_rows[j] * x[w.branch[j]]
+        x[k] = total * w.K_rows[start + depth]
 
 
 @compiled
 def multiply_inertia(w: KernelWorld, tree: int, inertia: Any, x: Any, into: Any) -> None:
     """Write M·x into a field; the diagonal of M, with dampers, is `inertia`."""
     for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
-        row = w.dof_row[d]
+        row, start = w.dof_row[d], w.dof_branch[d]
         total, xd = inertia[d] * x[d], x[d]
-        e = w.dof_parent[d]
-        while e >= 0:
-            c = w.M[row + e]
-            total += c * x[e]
-            into[e] += c * xd
-            e = w.dof_parent[e]
+        for j in range(start, start + w.dof_depth[d]):
+            e = w.branch[j]
+            total += w.M[row + e] * x[e]
+            into[e] += w.M[row + e] * xd
         into[d] = total
 
 
@@ -183,9 +181,7 @@ def multiply_inertia(w: KernelWorld, tree: int, inertia: Any, x: Any, into: Any)
 def damped_inertia(w: KernelWorld, tree: int, into: Any) -> None:
     """Write the diagonal of M, with what dampers and servos add to it, as its factor L has it."""
     for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
-        row = w.dof_row[d]
+        row, start = w.dof_row[d], w.dof_branch[d]
         into[d] = 1.0 / (w.inverse_diagonal[d] * w.inverse_diagonal[d])
-        e = w.dof_parent[d]
-        while e >= 0:
-            into[e] += w.L[row + e] * w.L[row + e]
-            e = w.dof_parent[e]
+        for j in range(start, start + w.dof_depth[d]):
+            into[w.branch[j]] += w.L[row + w.branch[j]] * w.L[row + w.branch[j]]
