@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.bench.contact_rich.models import quadruped
+from tests.bench.contact_rich.models import humanoid, quadruped
 from tests.bench.contact_rich.scenes import FOLDED
 from tests.sim.engine.conftest import EngineOf
 from urdfkit import Simulator
@@ -78,6 +78,16 @@ def test_attempts_that_fail_at_rest_are_skipped_in_most_steps(engine_of: EngineO
     assert max(taken) > 5  # corrections are still attempted now and then
     assert np.abs(engine.v).max() < 1e-6
     assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(WEIGHT, rel=1e-5)
+
+
+def test_a_collapsing_humanoid_takes_few_newton_steps(engine_of: EngineOf) -> None:
+    engine = engine_of(humanoid(25, 1.0), sleep=False)
+    pose = {"left_hip_pitch": 0.3, "right_knee": 0.4}
+    engine.reset(engine.kinematics.configuration(pose, base=np.array([0.0, 0.0, 0.961, 0.0, 0.0, 0.0, 1.0])))
+    taken = newton_steps(engine, 2000)
+    # Friction jams it between 1.1 and 1.6 s: there, matrices have negative pivots.
+    assert np.mean(np.abs(taken)) < 8.0
+    assert engine.iterated < 15
 
 
 def test_a_reset_engine_repeats_the_same_bytes(engine_of: EngineOf) -> None:

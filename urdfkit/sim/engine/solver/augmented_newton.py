@@ -91,24 +91,26 @@ def list_contacts(w: KernelWorld, first: int, contacts: int, alone: bool) -> int
 
 
 @inlined
-def begin(
-    w: KernelWorld, tree: int, stride: int, rows: int, joint_rows: int, contacts: int, inertia: Any, attempt: int
-) -> None:
-    """Start from the velocities of the last step and the impulses ``before``.
+def begin(w: KernelWorld, tree: int, stride: int, rows: int, joint_rows: int, contacts: int, attempt: int) -> None:
+    """Start from the impulses ``before`` and the velocities that follow from these.
 
-    How `BOUNDED` shares a load that nothing determines is arbitrary: when the jam ends, impulses start from nothing.
+    Where contacts stay, impulses hardly change from step to step, so these velocities are nearer to the solution than
+    those of the last step. How `BOUNDED` shares a load that nothing determines is arbitrary: when the jam ends,
+    impulses start from nothing.
     """
     memory = 0.0 if w.attempt[ATTEMPT * tree + LAST_ATTEMPT] == BOUNDED and attempt != BOUNDED else MEMORY
+    first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
     for k in range(rows):
         w.x[k] = memory * w.before[k]
-    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
-        w.block_v[d] = w.v_start[d]
-        w.slope_v[d] = w.v_start[d] - w.sum_v[d]
-        w.slope_s[d] = 0.0
-    multiply_inertia(w, tree, inertia, w.slope_v, w.sum_s)
+        w.y[k] = w.velocity[k] = 0.0
+    for d in range(first, beyond):
+        w.sum_s[d] = w.slope_s[d] = 0.0
+    imbalance(w, tree, stride, joint_rows, contacts, 0.0, 0.0, False)
+    solve_forward(w, first, beyond)
+    for d in range(first, beyond):
+        w.sum_s[d] = w.block_f[d]
+        w.block_v[d] = w.sum_v[d] + w.u[d]
     row_velocities(w, tree, stride, joint_rows, contacts, w.block_v, 1.0, w.y)
-    for k in range(rows):
-        w.velocity[k] = 0.0
 
 
 @compiled
@@ -202,7 +204,7 @@ def first_attempt(w: KernelWorld, tree: int, joint_rows: int, rows: int) -> int:
     attempt = int(w.attempt[at + LAST_ATTEMPT]) if w.attempt[at + SKIPPED] > 0 else RESTING
     if attempt >= LEAVING:
         leave_violations(w, joint_rows, rows, math.inf)
-    if attempt == RELAXED:
+    if attempt >= RELAXED:
         leave_violations(w, 0, joint_rows, RETURN)
     return attempt
 
@@ -224,7 +226,7 @@ def next_attempt(w: KernelWorld, tree: int, attempt: int, joint_rows: int, rows:
 def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
     """Choose for how many steps attempts are skipped that failed in this step, more the more often they failed.
 
-    So a robot at rest does not attempt in vain, in each step, what failed in many steps before.
+    So a robot at rest or in a fall does not attempt in vain, in each step, what failed in many steps before.
 
     Args:
         w: the world's arrays.
@@ -240,7 +242,7 @@ def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
         w.attempt[at + SKIPPED] = max(0, w.attempt[at + SKIPPED] - 1)
     else:
         w.attempt[at + TURNS] += 1
-        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last < MOVING else 0
+        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last < BOUNDED else 0
 
 
 @inlined
@@ -281,8 +283,8 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     damped_inertia(w, tree, inertia)
     prepare(w, tree, stride, joint_rows, contacts, inertia)
     attempt = first_try = first_attempt(w, tree, joint_rows, rows)
-    begin(w, tree, stride, rows, joint_rows, contacts, inertia, attempt)
-    hardness, balance = HARD, BALANCE
+    begin(w, tree, stride, rows, joint_rows, contacts, attempt)
+    hardness, balance = SOFT if attempt == MOVING else HARD, BALANCE
     total = 0
     before = math.inf
     met = False
@@ -297,11 +299,11 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         elif attempt < MOVING and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY)):
             attempt = next_attempt(w, tree, attempt, joint_rows, rows)
             hardness = SOFT if attempt == MOVING else HARD
-            begin(w, tree, stride, rows, joint_rows, contacts, inertia, attempt)
+            begin(w, tree, stride, rows, joint_rows, contacts, attempt)
             off = math.inf
         elif attempt == MOVING and (total >= TOTAL or (taken == -1 and hardness == SOFTEST)):
             attempt, hardness, total = BOUNDED, SOFT, TOTAL
-            begin(w, tree, stride, rows, joint_rows, contacts, inertia, attempt)
+            begin(w, tree, stride, rows, joint_rows, contacts, attempt)
             off = math.inf
         elif taken < 0:
             hardness = max(SOFTEST, SOFTER * hardness)
