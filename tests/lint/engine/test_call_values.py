@@ -87,3 +87,42 @@ def test_a_value_is_found_where_it_is_written_once(mass, y, code, line, tmp_path
     (tmp_path / "r.urdf.xacro").write_text(TWINS.format(mass, f"${{{y}}}" if "*" in y else y))
     (found,) = lint(tmp_path / "r.urdf.xacro", select=(code,), target="ros2")
     assert found.line == line
+
+
+HINGES = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="far" value="40"/>
+  <xacro:macro name="hinge" params="name axis:='0 0 1' yaw:=0 start:=0">
+    <link name="${name}"/>
+    <joint name="${name}_joint" type="revolute">
+      <parent link="base"/><child link="${name}"/><origin xyz="0 0 0.2" rpy="0 0 ${yaw}"/><axis xyz="${axis}"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/>
+    </joint>
+    <ros2_control name="${name}" type="system">
+      <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+      <joint name="${name}_joint">
+        <command_interface name="position"/>
+        <state_interface name="position"><param name="initial_value">${start}</param></state_interface>
+      </joint>
+    </ros2_control>
+  </xacro:macro>
+  <link name="base"/>
+  CALL
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("call", "code", "attribute"),
+    [
+        ('<xacro:hinge name="head_pan" axis="0 ${far} 0"/>', "S917", 'axis="0 ${far} 0"'),
+        ('<xacro:hinge name="head" start="1.5"/>', "C719", 'start="1.5"'),
+        ('<xacro:hinge name="head" yaw="${far + 50}"/>', "J408", 'yaw="${far + 50}"'),
+    ],
+    ids=["expression", "text of a tag with attributes", "between zeros"],
+)
+def test_expressions_and_values_between_zeros_are_found_at_the_call(call, code, attribute, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "r.urdf.xacro").write_text(HINGES.replace("CALL", call))
+    (found,) = lint("r.urdf.xacro", select=(code,))
+    line = (tmp_path / "r.urdf.xacro").read_text().splitlines()[found.line - 1]
+    assert line[found.column - 1 :].startswith(attribute)

@@ -15,7 +15,7 @@ _ATTRIBUTE = rf"[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"']"
 _TAG = rf"<[\w:.-]+\s+{_ATTRIBUTE}\s*/?>"
 """Matches a tag with one attribute."""
 
-_TEXT = rf"<[\w:.-]+>{_HANDED_ON}</"
+_TEXT = rf"<[\w:.-]+(?:\s[^<>]*)?>{_HANDED_ON}</"
 """Matches an element whose text is a parameter."""
 
 
@@ -66,7 +66,8 @@ def _written(finding: Finding, model: Model) -> Span | None:
         if place is None or (is_property and not (_is_used_once(handed_on[1], model) and value.strip() and not outer)):
             return None  # a default value, or a property of several uses
         handed_on = re.fullmatch(_HANDED_ON, value)
-        if handed_on is None and (whole or ("$" not in value and _is_named(value.strip(), finding.message))):
+        is_named = handed_on is None and "$" not in value and _is_named(value.strip(), finding.message)
+        if is_named or (whole and not is_property):
             found = model.span(*place)
         if is_property:
             break
