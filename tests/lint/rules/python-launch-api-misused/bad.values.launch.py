@@ -28,10 +28,11 @@ def generate_launch_description():
     loop = launch.event_handlers.OnProcessExit(target_action=other, on_exit=[other])  # <!-- expect: L106 -->
     list_of_one = launch.event_handlers.OnProcessExit(target_action=[server], on_exit=[other])  # <!-- expect: L106 -->
     timer = launch.actions.TimerAction(period=2.0, actions=server)  # <!-- expect: L106 -->
+    late = launch.event_handlers.OnProcessStart(target_action=timer, on_start=[other])  # <!-- expect: L106 -->
     if gui == "true":  # <!-- expect: L106 -->
         return LaunchDescription(server)  # <!-- expect: L106 -->
     if gui:  # <!-- expect: L106 -->
-        return LaunchDescription([server, other], [timer, handler, loop, list_of_one])  # <!-- expect: L106 -->
+        return LaunchDescription([server, other], [timer, handler, loop, list_of_one, late])  # <!-- expect: L106 -->
     node = Node(package="rviz2", executable="rviz2", parameters=[moveit().to_moveit_configs()])  # <!-- expect: L106 -->
     return LaunchDescription([node])
 

@@ -1,6 +1,6 @@
 """Values of the wrong kind in Python launch files: handlers, conditions, remappings, parameters and actions.
 
-Sources: ros2/launch (event_handlers/on_action_event_base.py, conditions/evaluate_condition_expression_impl.py,
+Sources: ros2/launch (event_handlers/on_action_event_base.py, event_handlers/on_process_exit.py, conditions/evaluate_condition_expression_impl.py,
 actions/timer_action.py, launch_description.py), ros2/launch_ros (actions/node.py, utilities/normalize_parameters.py,
 utilities/normalize_remap_rule.py), Humble to Rolling.
 """
@@ -18,6 +18,14 @@ from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
 Defects = Iterator[tuple[ast.expr, str]]
 
 _HANDLERS = {"OnProcessExit": "on_exit", "OnProcessStart": "on_start", "OnExecutionComplete": "on_completion"}
+_OF_PROCESSES = ("OnProcessExit", "OnProcessStart", "OnProcessIO")
+"""Handlers that accept only processes as their target."""
+
+_NO_PROCESSES = (
+    *("DeclareLaunchArgument", "EmitEvent", "GroupAction", "IncludeLaunchDescription", "LaunchDescription", "LogInfo"),
+    *("LoadComposableNodes", "OpaqueFunction", "PushRosNamespace", "RegisterEventHandler", "SetEnvironmentVariable"),
+    *("SetLaunchConfiguration", "SetParameter", "SetRemap", "TimerAction"),
+)
 _TRUTH = ("true", "false", "1", "0")
 _PATHS = ("join", "LaunchConfiguration", "ParameterFile", "PathJoinSubstitution", "PathSubstitution", "RewrittenYaml")
 _VALUES = ("Command", "ParameterValue")
@@ -63,6 +71,10 @@ def _items(node: ast.expr, reader: LaunchReader) -> list[ast.expr]:
 
 def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+    if kind in _OF_PROCESSES and (target := words.get("target_action")) is not None:
+        called = _called(target, reader)
+        if called in _NO_PROCESSES:
+            yield target, f"`target_action` of `{kind}` is `{called}`, which is not a process; write a process or node"
     if kind in _HANDLERS:
         yield from _handler(words.get("target_action"), words.get(_HANDLERS[kind]), _HANDLERS[kind], reader)
     elif kind in ("IfCondition", "UnlessCondition") and len(call.args) == 1 and _is_text(call.args[0]):

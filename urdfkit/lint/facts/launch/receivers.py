@@ -19,11 +19,12 @@ _EMPTY_WORLD = (
     " pub_clock_frequency enable_ros_network server_required gui_required extra_gazebo_args command_arg1 command_arg2"
     " command_arg3 script_type output"
 )
-_CLASSIC = (
-    "world gui server verbose pause record record_path physics init factory force_system gdb valgrind extra_gazebo_args"
-    " params_file server_required gui_required version lockstep profile initial_sim_time recording use_sim_time debug"
-    " worldfile iters minimal_comms seed play ros_network lite log output"
+_GZSERVER = (
+    "world version verbose lockstep help pause initial_sim_time physics play record record_encoding record_path"
+    " record_period record_filter seed iters minimal_comms profile extra_gazebo_args params_file gdb valgrind init"
+    " factory force_system server_required"
 )
+_GZCLIENT = "version verbose help extra_gazebo_args gdb valgrind gui_required"
 _NAV2 = "namespace use_sim_time params_file autostart use_composition container_name use_respawn log_level graph"
 _SLAM = "use_sim_time slam_params_file autostart use_lifecycle_manager namespace"
 OUTSIDE = {
@@ -35,15 +36,24 @@ OUTSIDE = {
     ("nav2_bringup", "localization_launch.py"): f"{_NAV2} map",
     ("nav2_bringup", "navigation_launch.py"): _NAV2,
     ("gazebo_ros", "empty_world.launch"): _EMPTY_WORLD,
-    ("gazebo_ros", "gazebo.launch.py"): _CLASSIC,
+    ("gazebo_ros", "gazebo.launch.py"): f"gui server {_GZSERVER} {_GZCLIENT}",
+    ("gazebo_ros", "gzserver.launch.py"): _GZSERVER,
+    ("gazebo_ros", "gzclient.launch.py"): _GZCLIENT,
     ("ros_gz_sim", "gz_sim.launch.py"): _GZ,
-    ("ros_gz_sim", "ros_gz_sim.launch.py"): _GZ,
+    ("ros_gz_sim", "gz_spawn_model.launch.py"): "world file string model_string topic entity_name allow_renaming"
+    " x y z R P Y",
     ("ros_ign_gazebo", "ign_gazebo.launch.py"): _GZ,
 }
 """Launch files from outside → their arguments.
 
-Sources: gazebo_ros (Noetic and Humble), ros_gz (Jazzy), nav2_bringup and slam_toolbox (Humble to Jazzy).
+Sources: gazebo_ros (Noetic and Foxy to Humble), ros_gz (Jazzy), nav2_bringup and slam_toolbox (Humble to Jazzy).
 """
+
+COMPLETE = frozenset(("gazebo_ros", f"{each}.launch.py") for each in ("gazebo", "gzserver", "gzclient"))
+"""Launch files of ROS 2 from outside of which `OUTSIDE` has all arguments of all releases."""
+
+EVERYWHERE = ("use_sim_time",)
+"""Arguments that many files pass to launch files that do not declare them, without effect and without harm."""
 
 _FILES = {
     "gazebo_ros": "empty_world.launch gazebo.launch.py gzserver.launch.py gzclient.launch.py mud_world.launch"

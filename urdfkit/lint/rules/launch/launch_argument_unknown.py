@@ -75,9 +75,13 @@ class LaunchArgumentUnknown(RobotRule):
                 yield from self._xacro(file, call, model)
 
     def _outside(self, file: LaunchActions, call: Call, names: list[str], target: str) -> Findings:
+        from urdfkit.lint.facts.launch.receivers import COMPLETE, EVERYWHERE
+
         is_strict = file.is_ros1 and target == "empty_world.launch"
+        is_complete = is_strict or (call.package, target) in COMPLETE
+        accepted = names if is_strict else [*names, *EVERYWHERE]
         yield from self._unknown(
-            file, call.passed, names, target, not is_strict, "error" if is_strict else self.severity
+            file, call.passed, accepted, target, not is_complete, "error" if is_strict else self.severity
         )
         for name in (each for each in call.passed if call.package == "ros_gz_sim" and each.name.startswith("ign_")):
             meant = f"gz_{name.name.removeprefix('ign_')}"  # gz_sim.launch.py.in of ros_gz declares both
@@ -152,8 +156,8 @@ class LaunchArgumentUnknown(RobotRule):
                 continue
             others = [other for other in names if other not in {one.name for one in passed}]
             near = meant(name.name, others)[0] or first_slip(name.name, others)
-            if near is None and only_misspelt:
-                near = _with_these_words(name.name, others)
+            if near is None:
+                near = _with_these_words(name.name, others, only_misspelt)
             hint = Suggestion(near, name.name)
             if near is not None or not only_misspelt:
                 yield self._at(file, name, f"{target} has no argument `{name.name}`" + hint, severity)
@@ -163,11 +167,24 @@ class LaunchArgumentUnknown(RobotRule):
         return self.at_span(span, message, severity=severity)
 
 
-def _with_these_words(name: str, others: list[str]) -> str | None:
-    """Return the only argument of a file that has all words of a name, such as ``slam_params_file``, or fewer words."""
-    words, first = set(name.split("_")), name.partition("_")[0]
-    near = [each for each in others if words < set(each.split("_")) or each == first]
-    return near[0] if len(near) == 1 and name.endswith("_file") else None
+_OPTIONAL = frozenset(("enable", "launch", "name", "path", "run", "show", "start", "use", "with"))
+"""Words that names of arguments have or lack without another meaning."""
+
+
+def _with_these_words(name: str, others: list[str], only_optional: bool) -> str | None:
+    """Return the only argument of a file that has all words of a name, such as ``slam_params_file``, or fewer words.
+
+    Args:
+        name: the name of the passed argument.
+        others: the arguments of the file.
+        only_optional: whether the names may differ by `_OPTIONAL` words only, unless the name is that of a file.
+    """
+    words = set(name.split("_"))
+    near = [each for each in others if words < set(each.split("_")) or set(each.split("_")) < words]
+    is_meant = len(near) == 1 and (
+        not only_optional or name.endswith("_file") or words ^ set(near[0].split("_")) <= _OPTIONAL
+    )
+    return near[0] if is_meant else None
 
 
 def _leaves_out_files(model: Model) -> bool:

@@ -25,6 +25,7 @@ class PythonLaunchApiMisused(RobotRule):
     - calls of the file's own functions that lack an argument
     - the text of a launch argument that is taken as a truth value, or compared with one
     - launch files in another format than the class that loads them
+    - event handlers of processes whose target is not a process
 
     ## Why is this bad?
     The launch file stops with an ImportError or a TypeError before it starts a node.
