@@ -39,3 +39,45 @@ def test_an_argument_with_an_optional_word_too_many_is_misspelt(tmp_path, name, 
     write(cart / "launch/all.launch.yaml", YAML.replace("{name}", name))
     message = f"sim.launch.py has no argument `{name}`; did you mean `gui`?"
     assert found(cart, "L102") == ([("all.launch.yaml", 5, message)] if is_reported else [])
+
+
+CONDITION = """<launch>
+  <arg name="{argument}" default="true"/>
+  <include {inverted}="$(arg {argument})" file="$(find cart_moveit_config)/launch/move_group.launch"/>
+{more}</launch>
+"""
+ALTERNATIVE = '  <include if="$(arg moveit)" file="$(find cart_moveit_config)/launch/demo.launch"/>\n'
+DRIVER = '  <group if="$(arg moveit)">\n    <node pkg="joy" type="joy_node" name="joy"/>\n  </group>\n'
+
+
+@pytest.mark.parametrize(
+    ("inverted", "argument", "more", "is_reported"),
+    [
+        ("unless", "moveit", "", True),
+        ("unless", "moveit", DRIVER, True),
+        ("unless", "use_moveit", "", True),
+        ("if", "without_moveit", "", True),
+        ("if", "moveit", "", False),
+        ("unless", "moveit", ALTERNATIVE, False),
+        ("unless", "fake_moveit", "", False),
+        ("unless", "no_moveit", "", False),
+        ("unless", "simulation", "", False),
+    ],
+)
+def test_what_an_argument_names_starts_with_it(tmp_path, inverted, argument, more, is_reported):
+    cart = package(tmp_path / "cart", "catkin", "cart_moveit_config", "joy")
+    text = CONDITION.replace("{inverted}", inverted).replace("{argument}", argument).replace("{more}", more)
+    write(cart / "launch/all.launch", text)
+    value = "true" if inverted == "if" else "false"
+    message = f"this starts `move_group.launch` if `{argument}` is {value}; the condition is inverted"
+    assert found(cart, "L127") == ([("all.launch", 3, message)] if is_reported else [])
+
+
+def test_a_group_with_a_window_does_not_start_if_the_launch_is_headless(tmp_path):
+    cart = package(tmp_path / "cart", "ament_cmake", "rviz2")
+    xml = '<launch>\n  <arg name="headless" default="false"/>\n  <group {}="$(var headless)">\n'
+    xml += '    <node pkg="rviz2" exec="rviz2"/>\n  </group>\n</launch>\n'
+    write(cart / "launch/wrong.launch.xml", xml.format("if"))
+    write(cart / "launch/right.launch.xml", xml.format("unless"))
+    message = "this starts `rviz2` if `headless` is true; the condition is inverted"
+    assert found(cart, "L127") == [("wrong.launch.xml", 3, message)]

@@ -270,7 +270,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.map_transform_published_twice", "MapTransformPublishedTwice"),
     (_LAUNCH, "launch.launch_argument_refused", "LaunchArgumentRefused"),
     (_LAUNCH, "launch.node_arguments_missing", "NodeArgumentsMissing"),
-    (_LAUNCH, "launch.hardware_in_simulation", "HardwareInSimulation"),
+    (_LAUNCH, "launch.launch_condition_inverted", "LaunchConditionInverted"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

@@ -16,6 +16,7 @@ _USE = r"\s*\$\((?:arg|var)\s+([\w.-]+)\s*\)\s*"
 _OPAQUE = r"GroupAction|OpaqueFunction|namespace|PushR|<push|\bns\s*="
 """Matches launch files whose conditions are outside of the actions, or that start several robots."""
 
+_ACTIONS = ("GroupAction", "IncludeLaunchDescription", "LifecycleNode", "Node")
 _BRANCHES = (ast.If, ast.IfExp, ast.For, ast.While, ast.Try)
 
 
@@ -42,6 +43,69 @@ class Start:
     passed: dict[str, str]
 
 
+@record(eq=False)
+class ConditionalAction:
+    """A node, an include or a group that starts if a launch argument is true, or if it is false.
+
+    Attributes:
+        place: first and last offset of the action, or of its start tag.
+        argument: the launch argument.
+        value: the value of the argument that starts the action.
+        subjects: package and program, or package and path of the included file, of each node and include in it.
+    """
+
+    place: tuple[int, int]
+    argument: str
+    value: bool
+    subjects: tuple[tuple[str, str], ...]
+
+
+def conditional_actions(source: Source) -> Iterator[ConditionalAction]:
+    """Yield the actions of a launch file with a condition of their own that one launch argument decides."""
+    if not source.file.endswith(".py"):
+        for element in all_elements(source):
+            at = element.attributes
+            uses = [(re.fullmatch(_USE, at[key].name), key == "if") for key in ("if", "unless") if key in at]
+            if element.tag in ("node", "include", "group") and len(uses) == 1 and uses[0][0] is not None:
+                subjects = [found for each in (element, *_below(element)) if any(found := _subject(each))]
+                yield ConditionalAction((element.start, element.end), uses[0][0][1], uses[0][1], tuple(subjects))
+        return
+    tree = parsed(source) if "Condition" in source.text else None
+    reader = launch_reader(tree) if tree is not None else None
+    for call in ast.walk(tree) if tree is not None else ():
+        if not isinstance(call, ast.Call) or name_of(call.func) not in _ACTIONS or reader is None:
+            continue
+        condition = next((word.value for word in call.keywords if word.arg == "condition"), None)
+        needed = _condition(condition, reader) or {}
+        inner = [_assigned(each, reader) or each for each in ast.walk(call) if isinstance(each, ast.expr)]
+        subjects = [found for each in inner if isinstance(each, ast.Call) and any(found := _called(each, reader))]
+        for argument, value in needed.items():
+            yield ConditionalAction(place(source, call), argument, value, tuple(subjects))
+
+
+def _subject(element: LaunchAction) -> tuple[str, str]:
+    """Return package and program of a node, or package and path of an include; empty for others."""
+    at = element.attributes
+    if element.tag == "include" and "file" in at:
+        return share_of(at["file"].name)
+    program = at.get("type") or at.get("exec")
+    return (at["pkg"].name, program.name) if element.tag == "node" and "pkg" in at and program else ("", "")
+
+
+def _called(call: ast.Call, reader: LaunchReader) -> tuple[str, str]:
+    """Return package and program of a node, or package and path of an include; empty for other calls."""
+    words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+    if name_of(call.func) == "IncludeLaunchDescription":
+        file = _assigned(call.args[0] if call.args else words.get("launch_description_source"), reader)
+        inner = file.args[0] if isinstance(file, ast.Call) and file.args else file
+        path = reader.path(inner) if inner is not None else None
+        return (path[0], path[1].strip("/")) if path is not None else ("", "")
+    if name_of(call.func) not in ("Node", "LifecycleNode"):
+        return "", ""
+    package, program = ((reader.text(words[key]) or "") if key in words else "" for key in ("package", "executable"))
+    return package, program
+
+
 def starts(source: Source) -> tuple[list[Start], dict[str, str]]:
     """Return the nodes and includes of a launch file whose conditions are known, and the defaults of its arguments."""
     if re.search(_OPAQUE, source.text):
@@ -66,8 +130,7 @@ def _in_elements(source: Source) -> Iterator[Start]:
             continue
         uses = [(re.fullmatch(_USE, at[key].name), key == "if") for key in ("if", "unless") if key in at]
         conditions = {use[1]: value for use, value in uses if use is not None}
-        program = at.get("type") or at.get("exec")
-        package, path = share_of(at["file"].name) if is_include and "file" in at else ("", "")
+        package, program = _subject(element)
         if len(conditions) < len(uses):
             continue
         passed = {
@@ -77,9 +140,9 @@ def _in_elements(source: Source) -> Iterator[Start]:
         }
         name = at["name"].name if "name" in at else ""
         if is_include:
-            yield Start((element.start, element.end), conditions, package, path, True, "", passed)
-        elif program is not None and "pkg" in at:
-            yield Start((element.start, element.end), conditions, at["pkg"].name, program.name, False, name, {})
+            yield Start((element.start, element.end), conditions, package, program, True, "", passed)
+        elif package or program:
+            yield Start((element.start, element.end), conditions, package, program, False, name, {})
 
 
 def _below(element: LaunchAction) -> Iterator[LaunchAction]:
@@ -106,16 +169,12 @@ def _in_python(source: Source, tree: ast.Module) -> Iterator[Start]:
         conditions = _condition(words.get("condition"), reader)
         if conditions is None:
             continue
+        package, program = _called(call, reader)
         if kind == "IncludeLaunchDescription":
-            file = _assigned(call.args[0] if call.args else words.get("launch_description_source"), reader)
-            inner = file.args[0] if isinstance(file, ast.Call) and file.args else file
-            path = reader.path(inner) if inner is not None else None
-            package, program = (path[0], path[1].strip("/")) if path is not None else ("", "")
             passed = _passed(words.get("launch_arguments"), reader)
             yield Start(place(source, call), conditions, package, program, True, "", passed)
         else:
-            keys = ("package", "executable", "name")
-            package, program, name = ((reader.text(words[key]) or "") if key in words else "" for key in keys)
+            name = (reader.text(words["name"]) or "") if "name" in words else ""
             yield Start(place(source, call), conditions, package, program, False, name, {})
 
 

@@ -12,12 +12,18 @@ def generate_launch_description():
         Node(
             package="rplidar_ros",
             executable="rplidar_node",
-            condition=UnlessCondition(sim),
+            condition=IfCondition(sim),  # <!-- expect: L127 -->
         ),
         Node(
             package="ros_gz_sim",
             executable="create",
             arguments=["-topic", "robot_description"],
-            condition=IfCondition(sim),
+            condition=UnlessCondition(sim),  # <!-- expect: L127 -->
+        ),
+        DeclareLaunchArgument("use_rviz", default_value="true"),
+        Node(
+            package="rviz2",
+            executable="rviz2",
+            condition=UnlessCondition(LaunchConfiguration("use_rviz")),  # <!-- expect: L127 -->
         ),
     ])

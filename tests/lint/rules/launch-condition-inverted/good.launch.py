@@ -1,5 +1,5 @@
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, GroupAction
 from launch.conditions import IfCondition, UnlessCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
@@ -12,12 +12,16 @@ def generate_launch_description():
         Node(
             package="rplidar_ros",
             executable="rplidar_node",
-            condition=IfCondition(sim),  # <!-- expect: L127 -->
+            condition=UnlessCondition(sim),
         ),
         Node(
             package="ros_gz_sim",
             executable="create",
             arguments=["-topic", "robot_description"],
-            condition=UnlessCondition(sim),  # <!-- expect: L127 -->
+            condition=IfCondition(sim),
+        ),
+        DeclareLaunchArgument("use_rviz", default_value="true"),
+        GroupAction(
+            [Node(package="rviz2", executable="rviz2")], condition=IfCondition(LaunchConfiguration("use_rviz"))
         ),
     ])
