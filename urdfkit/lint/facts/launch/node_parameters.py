@@ -1,7 +1,8 @@
 """Parameters of well-known nodes in YAML, by the names that the nodes have by default, and in launch files.
 
 Sources: teleop_twist_joy and joy (README.md), twist_mux (src/twist_mux.cpp), robot_localization (params/ekf.yaml),
-slam_toolbox (config/mapper_params_online_async.yaml), nav2_amcl (src/amcl_node.cpp), Noetic to Rolling.
+slam_toolbox (config/mapper_params_online_async.yaml), nav2_amcl (src/amcl_node.cpp), Noetic to Rolling;
+nav2_map_server (map_server.cpp), robot_state_publisher (robot_state_publisher.cpp), joint_state_publisher (README.md).
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
-from urdfkit.lint.model.tags import Document
+from urdfkit.lint.facts.launch.actions import all_elements
+from urdfkit.lint.facts.launch.ros_version import reads_ros1
+from urdfkit.lint.facts.parameters.schemas import other_names
 
 _PARAMETERS = """
 teleop_twist_joy_node teleop_twist_joy: require_enable_button enable_button enable_turbo_button axis_linear axis_angular
@@ -50,7 +53,7 @@ _OF_PACKAGES = """
 ros_gz_bridge: config_file expand_gz_topic_names override_timestamps_with_wall_time subscription_heartbeat bridge_names
 override_frame_id; robot_state_publisher: publish_frequency ignore_timestamp frame_prefix use_tf_static tf_prefix;
 joint_state_publisher joint_state_publisher_gui: source_list dependent_joints publish_default_positions use_mimic_tags
-publish_default_velocities publish_default_efforts use_smallest_joint_limits; nav2_map_server: yaml_filename topic_name
+publish_default_velocities publish_default_efforts use_smallest_joint_limits rate delta zeros; nav2_map_server: yaml_filename topic_name
 frame_id save_map_timeout free_thresh_default occupied_thresh_default map_subscribe_transient_local;
 nav2_lifecycle_manager: node_names
 autostart bond_timeout attempt_respawn_reconnection bond_respawn_max_duration service_timeout bond_heartbeat_period;
@@ -73,9 +76,28 @@ odom_frame_id base_frame_id global_frame_id tf_broadcast;
 The nodes of the packages in `_NODES` have the parameters in `_PARAMETERS`.
 """
 
+_COMPLETE = frozenset("joint_state_publisher joint_state_publisher_gui nav2_map_server robot_state_publisher".split())
+"""Packages whose nodes have no other parameters in ROS 2, except those of `_EVERY_NODE`."""
+
+_EVERY_NODE = frozenset(
+    "use_sim_time qos_overrides start_type_description_service robot_description bond_heartbeat_period diagnostic_updater"
+    " introspection_mode service_introspection_mode use_robot_description_topic".split()
+)
+
+_DESCRIPTIONS = ("robot_description_semantic", "robot_description_kinematics", "robot_description_planning")
+_OF_MOVEIT = ("moveit_ros_move_group", "moveit_servo", "rviz2")
+
 _NODES = {
     "joy": "joy_node",
     "nav2_amcl": "amcl",
+    "nav2_behaviors": "behavior_server",
+    "nav2_bt_navigator": "bt_navigator",
+    "nav2_collision_monitor": "collision_monitor",
+    "nav2_controller": "controller_server",
+    "nav2_map_server": "map_server",
+    "nav2_planner": "planner_server",
+    "nav2_smoother": "smoother_server",
+    "nav2_velocity_smoother": "velocity_smoother",
     "robot_localization": "ekf_filter_node",
     "slam_toolbox": "slam_toolbox",
     "teleop_twist_joy": "teleop_twist_joy_node",
@@ -98,18 +120,29 @@ def parameters_of(node: str) -> tuple[str, ...]:
     return _parameters().get(node, ())
 
 
-def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str]]:
-    """Yield the misspelt parameters of well-known nodes in a launch file: key, package, suggested name."""
+def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str | None]]:
+    """Yield the unknown parameters of well-known nodes in a launch file: key, package, suggested name if there is one."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
-    for package, keys in _in_python(source) if source.file.endswith(".py") else _in_xml(source):
+    is_ros1 = source.file.endswith((".launch", ".xml")) and reads_ros1(source)
+    for package, keys in _in_python(source) if source.file.endswith(".py") else _in_elements(source):
         accepted = _parameters(_OF_PACKAGES).get(package) or _parameters().get(_NODES.get(package, ""), ())
+        others = {} if is_ros1 else other_names(_NODES.get(package, package))
         written = {key.name.partition(".")[0] for key in keys}
         lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
         for key in (Named(each.name.partition(".")[0], each.start) for each in keys):
             near = next((each for each in lacking if is_slip(key.name, each) or _is_other_form(key.name, each)), None)
-            if near is not None and key.name not in accepted:
+            if near is None and others.get(key.name, key.name) not in written:
+                near = others[key.name]
+            is_described = package in _OF_MOVEIT and key.name.startswith("robot_description_")
+            is_unknown = package in _COMPLETE and key.name not in _EVERY_NODE
+            if key.name in accepted or is_ros1 and near is None:
+                continue
+            if near is not None or is_unknown:
                 yield key, package, near
+            elif is_described and key.name not in _DESCRIPTIONS:
+                left = [each for each in _DESCRIPTIONS if each not in written]
+                yield key, package, left[0] if len(left) == 1 or "srdf" in key.name else None
 
 
 def _is_other_form(name: str, parameter: str) -> bool:
@@ -118,15 +151,10 @@ def _is_other_form(name: str, parameter: str) -> bool:
     return is_start or name == f"{parameter}s"
 
 
-def _in_xml(source: Source) -> Iterator[tuple[str, list[Named]]]:
-    if not source.file.endswith((".launch", ".xml")):
-        return
-    for tag in (tag for root in Document(source).roots for tag in root.walk() if tag.name == "node"):
-        inner = [
-            child.attributes["name"] for child in tag.children if child.name == "param" if "name" in child.attributes
-        ]
-        if "pkg" in tag.attributes:
-            yield tag.attributes["pkg"].value, [Named(each.value, each.value_start) for each in inner]
+def _in_elements(source: Source) -> Iterator[tuple[str, list[Named]]]:
+    for element in (each for each in all_elements(source) if each.tag == "node" and "pkg" in each.attributes):
+        inner = [child.attributes for child in element.children if child.tag == "param"]
+        yield element.attributes["pkg"].name, [each["name"] for each in inner if "name" in each]
 
 
 def _in_python(source: Source) -> Iterator[tuple[str, list[Named]]]:

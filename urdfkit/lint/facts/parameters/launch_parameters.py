@@ -17,6 +17,7 @@ from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.navigation.tables import ORDERED
+from urdfkit.lint.facts.parameters.schemas import OF_ROS1
 
 Defects = Iterator[tuple[Named, str]]
 
@@ -37,17 +38,6 @@ _NUMBERS = {
     "robot_localization": "frequency sensor_timeout",
 }
 """Package → parameters that are numbers."""
-
-_RENAMED = {
-    "gmapping": {"base_frame_id": "base_frame", "odom_frame_id": "odom_frame", "map_frame_id": "map_frame"},
-    "amcl": {
-        **{"base_frame": "base_frame_id", "odom_frame": "odom_frame_id", "global_frame": "global_frame_id"},
-        **{"robot_model_type": "odom_model_type", "max_beams": "laser_max_beams", "map_frame": "global_frame_id"},
-    },
-    "robot_localization": {"base_link": "base_link_frame", "base_frame": "base_link_frame", "rate": "frequency"},
-    "teleop_twist_joy": {"deadman_button": "enable_button", "turbo_button": "enable_turbo_button"},
-}
-"""Package → name of another node or release → its parameter."""
 
 _FRAMES = ({"odom_frame", "odom_frame_id"}, {"map_frame", "global_frame_id"})
 
@@ -72,7 +62,7 @@ def launch_parameter_defects(source: Source) -> Defects:
     if not reads_ros1(source):
         return
     for package, written in parameters_in_launch(source):
-        renamed, numbers = _RENAMED.get(package, {}), _NUMBERS.get(package, "").split()
+        renamed, numbers = OF_ROS1.get(package, {}), _NUMBERS.get(package, "").split()
         for name, (key, value) in written.items():
             right, text = renamed.get(name), value.name.strip()
             if right is not None and right not in written:

@@ -62,6 +62,28 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
             yield file, f"MoveIt reads the solvers of {name} from {read}, not from `{namespace.rpartition('/')[2]}`"
 
 
+def unread_semantics(source: Source, model: Model) -> Defects:
+    """Yield the names of parameters with an SRDF in a ROS 1 launch file, if no file loads one where MoveIt reads it."""
+    names = list(_semantics(source))
+    if not names or any(_is_semantic(name) for file in ros1_files(model) for name in _semantics(file)):
+        return
+    for name in names:
+        shown = re.sub(r"\$\(arg ([\w-]+)\)", r"\1", name.value).rpartition("/")[2]
+        yield name, f"MoveIt reads the SRDF from `robot_description_semantic`, not from `{shown}`"
+
+
+def _semantics(source: Source) -> Iterator[Attribute]:
+    """Yield the names of the parameters with the text of an SRDF."""
+    for tag in _tags(source) if ".srdf" in source.text else ():
+        texts = [tag.attributes[key].value for key in ("textfile", "command") if key in tag.attributes]
+        if tag.name == "param" and "name" in tag.attributes and any(".srdf" in text for text in texts):
+            yield tag.attributes["name"]
+
+
+def _is_semantic(name: Attribute) -> bool:
+    return name.value.rstrip(")").endswith("semantic")
+
+
 def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
     """Return why the costmaps of move_base do not read a file; None if they do, or if it is for another part."""
     roots = documents(parameters)

@@ -188,6 +188,14 @@ velocity_smoother|max_deceleration max_dec min_accel=max_decel
 velocity_smoother|max_vel=max_velocity
 velocity_smoother|min_vel=min_velocity
 velocity_smoother|frequency=smoothing_frequency
+map_server|map map_file map_path map_yaml map_yaml_file yaml_file_name yaml_path=yaml_filename
+map_server|map_topic=topic_name
+map_server|map_frame frame=frame_id
+robot_state_publisher|rate publish_rate frequency=publish_frequency
+robot_state_publisher|tf_prefix prefix=frame_prefix
+joint_state_publisher joint_state_publisher_gui|publish_rate publish_frequency frequency=rate
+joint_state_publisher joint_state_publisher_gui|source_lists sources topics=source_list
+parameter_bridge|config yaml_file bridge_config params_file=config_file
 twist_mux|topic=topics
 twist_mux|lock=locks
 """
@@ -227,19 +235,30 @@ OF_ROS1 = {
         **{f"alpha{at}": f"odom_alpha{at}" for at in range(1, 6)},
         **{name: f"laser_{name}" for name in ("max_beams", "z_hit", "z_short", "z_max", "z_rand", "sigma_hit")},
         **{"pf_err": "kld_err", "pf_z": "kld_z", "robot_model_type": "odom_model_type"},
+        **{"base_frame": "base_frame_id", "odom_frame": "odom_frame_id"},
+        **dict.fromkeys(("global_frame", "map_frame"), "global_frame_id"),
     },
     "gmapping": {
         **{"base_frame_id": "base_frame", "odom_frame_id": "odom_frame", "map_frame_id": "map_frame"},
         **{"max_range": "maxRange", "resolution": "delta", "max_laser_range": "maxRange"},
     },
-    "teleop_twist_joy": {"axis_linear.x": "axis_linear", "axis_angular.yaw": "axis_angular"},
+    "teleop_twist_joy": {
+        **{"axis_linear.x": "axis_linear", "axis_angular.yaw": "axis_angular"},
+        **{"deadman_button": "enable_button", "turbo_button": "enable_turbo_button"},
+    },
     "move_base": {
         **{"controller_plugins": "base_local_planner", "planner_plugins": "base_global_planner"},
         **{"expected_planner_frequency": "planner_frequency"},
     },
+    "moveit_ros_move_group": {"planning_plugins": "planning_plugin"},
+    "robot_localization": {"base_link": "base_link_frame", "base_frame": "base_link_frame", "rate": "frequency"},
     "robot_state_publisher": {"frequency": "publish_frequency"},
 }
-"""ROS 1 package → names of other releases → names of Noetic."""
+"""ROS 1 package → names of other releases and nodes → names of Noetic."""
+
+
+_KINDS = {"ekf_filter_node": "ekf", "ros_gz_bridge": "parameter_bridge"}
+"""Default name of a node, or its package → its name in the tables."""
 
 
 @cache
@@ -265,3 +284,8 @@ def renamed() -> dict[str, dict[str, str]]:
         for node in nodes.split():
             found.setdefault(node, {}).update(dict.fromkeys(others.split(), name))
     return found
+
+
+def other_names(node: str) -> dict[str, str]:
+    """Return the parameters of other nodes or releases → those of a ROS 2 node by its default name."""
+    return renamed().get(_KINDS.get(node, node), {})

@@ -41,7 +41,7 @@ class LaunchNameMisspelt(RobotRule):
       ``controller_manager`` or a MoveIt plugin
     - keys in YAML files that resemble ``use_sim_time`` or ``robot_description``
     - topics that the remappings of common nodes replace, and parameters of common nodes such as
-      ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``
+      ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``, also under the names of other nodes
     - namespaces of costmaps, which must be ``local_costmap`` or ``global_costmap``
     - worlds without a path, which must be worlds of Gazebo
 
@@ -109,7 +109,7 @@ class LaunchNameMisspelt(RobotRule):
                     near, parameter.name
                 )
                 span = source.span(parameter.start, parameter.end)
-                yield self.at_span(span, message, severity="warning", names=(near,))
+                yield self.at_span(span, message, severity="warning", names=(near,) if near is not None else ())
             for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
                 near = _nearest(world[1], _WORLDS)
                 if near is not None and world[1] not in _WORLDS:

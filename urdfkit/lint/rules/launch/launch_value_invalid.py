@@ -35,7 +35,8 @@ class LaunchValueInvalid(RobotRule):
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
-    - parameter files with substitutions but without ``subst_value``, and MoveIt files in the wrong namespace
+    - parameter files with substitutions but without ``subst_value``, and MoveIt files in the wrong namespace or
+      parameter
     - a default planning pipeline that is not loaded
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,
@@ -70,6 +71,7 @@ class LaunchValueInvalid(RobotRule):
             loaded_file_defects,
             spawned_while_paused,
             unloaded_pipelines,
+            unread_semantics,
         )
         from urdfkit.lint.model.tags import Document
 
@@ -92,6 +94,7 @@ class LaunchValueInvalid(RobotRule):
                 *loaded_file_defects(source, model),
                 *unloaded_pipelines(source, model),
                 *spawned_while_paused(source, model),
+                *unread_semantics(source, model),
             )
             for attribute, message in found_in_files if version == 1 else ():
                 span = source.span(attribute.value_start, attribute.value_end)
