@@ -1,4 +1,4 @@
-"""Arguments that included launch files do not have, and inverted conditions, each with the one finding that names it."""
+"""Arguments that included launch files do not have, and inverted conditions of launch files."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from launch_ros.actions import Node
 
 def generate_launch_description():
     return LaunchDescription([
-        Node(package="{package}", executable="{program}", arguments=["x"], parameters=[{"{key}": "x", "use_sim_time": True}]),
+        Node(package="{package}", executable="{program}", parameters=[{"{key}": "x", "use_sim_time": True}]),
     ])
 """
 

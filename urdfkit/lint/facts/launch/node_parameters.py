@@ -53,7 +53,8 @@ _OF_PACKAGES = """
 ros_gz_bridge: config_file expand_gz_topic_names override_timestamps_with_wall_time subscription_heartbeat bridge_names
 override_frame_id; robot_state_publisher: publish_frequency ignore_timestamp frame_prefix use_tf_static tf_prefix;
 joint_state_publisher joint_state_publisher_gui: source_list dependent_joints publish_default_positions use_mimic_tags
-publish_default_velocities publish_default_efforts use_smallest_joint_limits rate delta zeros; nav2_map_server: yaml_filename topic_name
+publish_default_velocities publish_default_efforts use_smallest_joint_limits rate delta zeros;
+nav2_map_server: yaml_filename topic_name
 frame_id save_map_timeout free_thresh_default occupied_thresh_default map_subscribe_transient_local;
 nav2_lifecycle_manager: node_names
 autostart bond_timeout attempt_respawn_reconnection bond_respawn_max_duration service_timeout bond_heartbeat_period;
@@ -76,13 +77,14 @@ odom_frame_id base_frame_id global_frame_id tf_broadcast;
 The nodes of the packages in `_NODES` have the parameters in `_PARAMETERS`.
 """
 
-_COMPLETE = frozenset("joint_state_publisher joint_state_publisher_gui nav2_map_server robot_state_publisher".split())
+_COMPLETE = ("joint_state_publisher", "joint_state_publisher_gui", "nav2_map_server", "robot_state_publisher")
 """Packages whose nodes have no other parameters in ROS 2, except those of `_EVERY_NODE`."""
 
-_EVERY_NODE = frozenset(
-    "use_sim_time qos_overrides start_type_description_service robot_description bond_heartbeat_period diagnostic_updater"
-    " introspection_mode service_introspection_mode use_robot_description_topic".split()
+_EVERY_NODE = (
+    *("use_sim_time", "qos_overrides", "start_type_description_service", "robot_description", "diagnostic_updater"),
+    *("bond_heartbeat_period", "introspection_mode", "service_introspection_mode", "use_robot_description_topic"),
 )
+"""Parameters that are accepted in every ROS 2 node, as other parts of it read them."""
 
 _DESCRIPTIONS = ("robot_description_semantic", "robot_description_kinematics", "robot_description_planning")
 _OF_MOVEIT = ("moveit_ros_move_group", "moveit_servo", "rviz2")
@@ -121,7 +123,7 @@ def parameters_of(node: str) -> tuple[str, ...]:
 
 
 def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str | None]]:
-    """Yield the unknown parameters of well-known nodes in a launch file: key, package, suggested name if there is one."""
+    """Yield the unknown parameters of well-known nodes in a launch file: key, package, suggested name or None."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
     is_ros1 = source.file.endswith((".launch", ".xml")) and reads_ros1(source)
@@ -136,7 +138,7 @@ def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str | None]
                 near = others[key.name]
             is_described = package in _OF_MOVEIT and key.name.startswith("robot_description_")
             is_unknown = package in _COMPLETE and key.name not in _EVERY_NODE
-            if key.name in accepted or is_ros1 and near is None:
+            if key.name in accepted or (is_ros1 and near is None):
                 continue
             if near is not None or is_unknown:
                 yield key, package, near

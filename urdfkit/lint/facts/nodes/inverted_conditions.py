@@ -1,4 +1,4 @@
-"""Conditions of launch files that are inverted: drivers of hardware in a simulation, and actions without their argument.
+"""Inverted conditions of launch files: drivers of hardware in a simulation, and actions without their argument.
 
 Drivers must not start in a simulation only, and Gazebo not without one only. An action that an argument names must not
 start if the argument is false only.
@@ -37,7 +37,10 @@ _ALSO = {
 """Word of an argument → other words of the programs that it stands for."""
 
 _OTHERS = frozenset(
-    "default dummy empty fake headless keyboard localization mock no sim simulated static without".split()
+    (
+        *("default", "dummy", "empty", "fake", "headless", "keyboard", "localization", "mock"),
+        *("no", "sim", "simulated", "static", "without"),
+    )
 )
 """Words of programs that an argument can replace: ``use_camera`` and ``fake_camera``."""
 

@@ -69,7 +69,9 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the old name and the message of each remapping that has no effect."""
     inputs, files = set(_mux_topics(model, ("topics", "locks"))), parameter_files(model)
     seen = set[tuple[str, int]]()
-    for node in launched_nodes(model):
+    nodes = launched_nodes(model)
+    shared = {(node.source.file, old.start) for node in nodes for old, _ in node.remappings if _is_own(node, old)}
+    for node in nodes:
         for old, new in node.remappings:
             if new.name.startswith("~/") and re.fullmatch(rf"/?{re.escape(new.name[2:])}", old.name):
                 yield node.source, old, f"the names of this remapping are swapped; write `{new.name}` first"
@@ -84,7 +86,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                     f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names",
                 )
         for old, message in _swapped(node):
-            if (node.source.file, old.start) not in seen:  # a function can start several nodes
+            if (node.source.file, old.start) not in seen | shared:  # several nodes can have one list of remappings
                 seen.add((node.source.file, old.start))
                 yield node.source, old, message
         label = node.program if f"{node.package}/{node.program}" in _NAMES else node.package
@@ -116,13 +118,23 @@ def _unfed(model: Model, published: set[str]) -> LaunchedNode | None:
 
 def _swapped(node: LaunchedNode) -> Iterator[tuple[Named, str]]:
     """Yield the remappings of a well-known node whose new name is a topic of the node, and whose old name is not."""
-    topics = topics_of(node.package, node.program)
-    names = {*topics.read, *topics.published} if topics is not None else set()
     if node.package in _NAMES or f"{node.package}/{node.program}" in _NAMES or node.package in _OF_ROS1:
         return
     for old, new in node.remappings:
-        if new.name in names and old.name.removeprefix("~").strip("/") not in names:
+        if new.name.strip("/") in _own_topics(node) and not _is_own(node, old):
             yield old, f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names"
+
+
+def _own_topics(node: LaunchedNode) -> set[str]:
+    """Return the topics of a well-known node, with that of its velocity commands; empty for other nodes."""
+    topics = topics_of(node.package, node.program)
+    return ({*topics.read, *topics.published} if topics is not None else set()) | {_COMMANDS.get(node.package, "")} - {
+        ""
+    }
+
+
+def _is_own(node: LaunchedNode, old: Named) -> bool:
+    return old.name.removeprefix("~").strip("/") in _own_topics(node)
 
 
 def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:

@@ -11,7 +11,8 @@ class TopicUnconnected(RobotRule):
     ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
     ``joint_state_publisher`` for topics that the node does not have. Also reports nodes such as
     ``nav2_velocity_smoother`` that subscribe to the topic on which they publish, two equal nodes of a launch file that
-    publish on one topic, and drivers with swapped names in a remapping.
+    publish on one topic, and drivers with swapped names in a remapping. The remappings of a node in the packages of the
+    workspace are compared with the names in the code of its package, if the code computes no names.
 
     The launch files are read with the files that they include. Reports nodes that publish or subscribe to
     ``robot_description`` or ``joint_states`` in another namespace than the other nodes of the launch.
@@ -43,6 +44,7 @@ class TopicUnconnected(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.loops import published_together, self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
+        from urdfkit.lint.facts.topics.own_remappings import misnamed_in_code
         from urdfkit.lint.facts.topics.velocity_commands import (
             misnamed_remappings,
             unfed_mux_topics,
@@ -52,7 +54,7 @@ class TopicUnconnected(RobotRule):
         loops = list(self_readers(model))
         # Otherwise the commands that the loop leaves without a reader are its consequence.
         unread = unread_commands(model) if not loops else ()
-        for source, name, message in (*misnamed_remappings(model), *loops, *unread):
+        for source, name, message in (*misnamed_remappings(model), *misnamed_in_code(model), *loops, *unread):
             span = source.span(name.start, name.end)
             yield self.at_span(span, message)
         for node, message, _ in published_together(model):
