@@ -1,8 +1,8 @@
 """Values of the wrong kind in Python launch files: handlers, conditions, remappings, parameters and actions.
 
 Sources: ros2/launch (event_handlers/on_action_event_base.py, event_handlers/on_process_exit.py,
-conditions/evaluate_condition_expression_impl.py, actions/timer_action.py, launch_description.py), ros2/launch_ros (actions/node.py, utilities/normalize_parameters.py,
-utilities/normalize_remap_rule.py), Humble to Rolling.
+conditions/evaluate_condition_expression_impl.py, actions/timer_action.py, launch_description.py), ros2/launch_ros
+(actions/node.py, utilities/normalize_parameters.py, utilities/normalize_remap_rule.py), Humble to Rolling.
 """
 
 from __future__ import annotations

@@ -131,8 +131,8 @@ def _in_python(text: str) -> Iterator[str | None]:
                 at = max(len(node.args) - 1, 0) if len(node.args) > 2 else at
             words = {each.arg: each.value for each in node.keywords}
             value = words.get(word) or (node.args[at] if at < len(node.args) else None)
-            is_text = isinstance(value, ast.Constant) and isinstance(value.value, str)
-            yield value.value if isinstance(value, ast.Constant) and is_text else None
+            written = value.value if isinstance(value, ast.Constant) else None
+            yield written if isinstance(written, str) else None
 
 
 def _in_cpp(text: str) -> Iterator[str | None]:

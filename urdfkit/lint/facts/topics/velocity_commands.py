@@ -127,10 +127,8 @@ def _swapped(node: LaunchedNode) -> Iterator[tuple[Named, str]]:
 
 def _own_topics(node: LaunchedNode) -> set[str]:
     """Return the topics of a well-known node, with that of its velocity commands; empty for other nodes."""
-    topics = topics_of(node.package, node.program)
-    return ({*topics.read, *topics.published} if topics is not None else set()) | {_COMMANDS.get(node.package, "")} - {
-        ""
-    }
+    topics, commands = topics_of(node.package, node.program), published_commands().get(node.package)
+    return {*(topics.read if topics else ()), *(topics.published if topics else ()), *((commands,) if commands else ())}
 
 
 def _is_own(node: LaunchedNode, old: Named) -> bool:
