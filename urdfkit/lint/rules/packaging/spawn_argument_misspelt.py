@@ -50,8 +50,9 @@ class SpawnArgumentMisspelt(RobotRule):
     ``spawner`` (controller_manager) for misspelt options, for options of another spawner, and for misspellings of
     the topic or parameter ``robot_description`` and of joints, and for its name in place of a file. The spawners of
     Gazebo Classic need a source of the description. Also reports a ``spawner`` that names another controller manager
-    than the launch files and the plugins of the robot start, and a description in a namespace if the launch file starts
-    the robot and no file names a namespace.
+    than the launch files and the plugins of the robot start, a launch argument with which the description of a spawned
+    robot has no plugin with a controller manager although it has one with the opposite value, and a description in a
+    namespace if the launch file starts the robot and no file names a namespace.
 
     Python launch files are parsed, not executed.
 
@@ -79,6 +80,7 @@ class SpawnArgumentMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid argument."""
         from urdfkit.lint.facts.connections.controller_managers import misdirected_spawners
+        from urdfkit.lint.facts.connections.unloaded_plugins import left_out_plugins
         from urdfkit.lint.facts.control.launched_nodes import launches, started
         from urdfkit.lint.facts.gazebo.spawned_models import (
             names_as_files,
@@ -89,7 +91,8 @@ class SpawnArgumentMisspelt(RobotRule):
 
         files = list(launches(model))
         places = set[tuple[str, int]]()
-        for span, message in misdirected_spawners(model) if any("spawner" in each.text for each in files) else ():
+        has_spawner = any("spawner" in each.text for each in files)
+        for span, message in (*misdirected_spawners(model), *left_out_plugins(model)) if has_spawner else ():
             places.add((span.file, span.line))
             yield self.at_span(span, message, severity="warning", kind="manager")
         for source in files:
