@@ -60,6 +60,7 @@ imu0: imu
 imu0_relative: true
 two_d_mode: true
 """
+NEXT = "\n                  "
 MAP = """image: room.pgm
 mode: trinary
 resolution: 0.05
@@ -259,10 +260,29 @@ BAD = [
     ("filter", "imu0_differential", "imu_differential", "K971", 9, "did you mean `imu0_differential`?"),
     ("filter", "30.0", "0.0", "K971", 3, "`frequency` is 0; it must be positive"),
     ("ros1", "world_frame: odom", "world_frame: base", "K971", 5, "neither `map_frame` nor `odom_frame`"),
+    (
+        "filter",
+        "    imu0_differential",
+        (
+            f"    imu0_config: [{'false, false, false,' + NEXT}true, true,{NEXT}{('true, true, true,' + NEXT) * 2}"
+            "false, false, true]\n    imu0_differential"
+        ),
+        "K971",
+        10,
+        "`imu0_config` has 14 values; robot_localization requires 15",
+    ),
     ("ros1", "imu0_relative", "imu0_relativ", "K971", 7, "did you mean `imu0_relative`?"),
     ("ros1", "two_d_mode", "two_d_mod", "L104", 8, "parameter `two_d_mod` of node `robot_localization`; did you mean"),
     ("map", "room.pgm", "roon.pgm", "K971", 1, "image `roon.pgm` of the map does not exist; did you mean `room.pgm`?"),
     ("map", "trinary", "trinery", "K971", 2, "unknown `mode` `trinery` of the map; did you mean `trinary`?"),
+    (
+        "map",
+        "resolution: 0.05\norigin: [0.0, 0.0",
+        "resolution: 0.5\norigin: [-0.5, -0.25",
+        "K971",
+        3,
+        "`resolution` is 0.5 m per pixel, but `origin` is half of the size of the image with 0.05 m per pixel",
+    ),
     ("map", "0.05", "0", "K971", 3, "`resolution` is 0 m; it must be positive"),
     ("drive", "tf: false", "tf: true", "K971", 9, "the filter in filter.yaml publishes the same transform"),
     ("drive", "[0.001, ", "[", "K971", 10, "has 5 values; it requires 6"),
@@ -382,6 +402,8 @@ GOOD = [
     ("filter", "imu_broadcaster/imu", "imu/data"),
     ("ros1", "imu0: imu", "imu0: imu/data"),
     ("map", "room.pgm", "/maps/room.pgm"),
+    ("map", "origin: [0.0, 0.0", "origin: [-0.5, -0.25"),
+    ("map", "origin: [0.0, 0.0", "origin: [-0.1, -0.25"),
     ("map", "trinary", "scale"),
     ("mux", "priority: 100", "priority: 255"),
     ("mux", "priority: 100", "priority: 0"),
@@ -412,7 +434,7 @@ def findings(folder: Path, name: str, old: str, new: str) -> list[tuple[str, int
         assert file != name or old in before
         changed = before.replace(old, new, 1)[1:] if file == name else text
         (folder / f"config/{file}.yaml").write_text(changed)
-    (folder / "config/room.pgm").write_bytes(b"P5 1 1 255 \0")
+    (folder / "config/room.pgm").write_bytes(b"P5\n# a room\n20 10\n255\n" + bytes(200))
     found = lint(folder)
     return [(one.code, one.line, one.message) for one in found if one.file.endswith(".yaml")]
 

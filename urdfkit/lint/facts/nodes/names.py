@@ -214,7 +214,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
             if name in meant:
                 continue
             message = f"no lifecycle manager of this file lists the node `{name}`, so it is never activated"
-            yield source, span, message
+            yield source, next((at for each, at in listed if each in own), span), message
 
 
 def _unlisted(

@@ -23,7 +23,7 @@ class ParameterValueInvalid(RobotRule):
     - wrong types and former names of the parameters of well-known nodes, and lists of lists, which ROS 2 rejects
     - in robot_localization, a wrong world frame and sensor configurations without 15 values
     - in Nav2, plugins that are listed without a section, and limits that its nodes reject
-    - in maps, a missing image, an unknown mode and impossible numbers
+    - in maps, a missing image, an unknown mode, impossible numbers and a resolution that contradicts the origin
 
     In the parameters of controllers, also checks for:
 
@@ -158,7 +158,16 @@ def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
         if joints is not None and is_flat and len(joints.items) != len(value.items):
             yield key, f"`positions` has {len(value.items)} values, but `joints` has {len(joints.items)} names"
         if re.fullmatch(_SENSOR_CONFIG, key.text) and value.kind == "list" and len(value.items) != 15:
-            yield key, f"`{key.text}` has {len(value.items)} values; robot_localization requires 15"
+            yield _odd_row(value) or key, f"`{key.text}` has {len(value.items)} values; robot_localization requires 15"
+
+
+def _odd_row(value: Node) -> Node | None:
+    """Return the first value of the only line of a list that has not three of them; None without such a line."""
+    from collections import Counter
+
+    lengths = Counter(item.line for item in value.items)
+    odd = [line for line, count in lengths.items() if count != 3]
+    return next(item for item in value.items if item.line == odd[0]) if len(odd) == 1 < len(lengths) else None
 
 
 def _has_parameters(node: Node) -> bool:
