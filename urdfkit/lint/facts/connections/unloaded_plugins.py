@@ -77,11 +77,11 @@ def _place(tree: LaunchContents, name: str, value: str, spawner: LaunchNode, mod
         for call in actions_of(source).includes:
             for argument, passed in passed_values(source, call):
                 if (argument, passed.name.strip()) == (name, value):
-                    return source.span(passed.start, passed.start + len(passed.name))
+                    return source.span(passed.start, passed.end)
     for source in sources:
         if (at := source.text.find(f"{name}:={value}")) >= 0:
             return source.span(at, at + len(f"{name}:={value}"))
         for argument, default, is_default in expected_values(source).values:
             if is_default and (argument, default.name) == (name, value):
-                return source.span(default.start, default.start + len(default.name))
+                return source.span(default.start, default.end)
     return place_of(spawner, model)
