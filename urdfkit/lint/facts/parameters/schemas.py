@@ -195,7 +195,6 @@ robot_state_publisher|rate publish_rate frequency=publish_frequency
 robot_state_publisher|tf_prefix prefix=frame_prefix
 joint_state_publisher joint_state_publisher_gui|publish_rate publish_frequency frequency=rate
 joint_state_publisher joint_state_publisher_gui|source_lists sources topics=source_list
-parameter_bridge|config yaml_file bridge_config params_file=config_file
 twist_mux|topic=topics
 twist_mux|lock=locks
 """
@@ -257,8 +256,8 @@ OF_ROS1 = {
 """ROS 1 package → names of other releases and nodes → names of Noetic."""
 
 
-_KINDS = {"ekf_filter_node": "ekf", "ros_gz_bridge": "parameter_bridge"}
-"""Default name of a node, or its package → its name in the tables."""
+_KINDS = {"ekf_filter_node": "ekf"}
+"""Default name of a node → its name in the tables."""
 
 
 @cache
