@@ -75,7 +75,7 @@ def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
 
 
 def _centred(image: Path, origin: Node) -> float:
-    """Return the resolution with which the origin of the map would be its centre; 0 if it is none that maps have."""
+    """Return the resolution with which the origin of the map would be its centre; 0 if it is not in `_RESOLUTIONS`."""
     x, y = (number_of(item) or 0.0 for item in origin.items[:2]) if len(origin.items) == 3 else (0.0, 0.0)
     width, height = _size(image) if x < 0.0 and y < 0.0 else (0, 0)
     if not width or not height:
