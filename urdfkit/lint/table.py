@@ -103,6 +103,7 @@ ROBOT: tuple[Row, ...] = (
     ("mimic", "joints.mimic_beyond_limits", "MimicBeyondLimits"),
     ("dynamics", "joints.dynamics_empty_or_negative", "DynamicsEmptyOrNegative"),
     ("dynamics", "joints.dynamics_exceed_effort", "DynamicsExceedEffort"),
+    ("type=prismatic", "joints.effort_below_weight", "EffortBelowWeight"),
     ("safety_controller", "joints.safety_controller_inconsistent", "SafetyControllerInconsistent"),
     ("mass!", "inertial.mass_nonpositive", "MassNonpositive"),
     ("inertia!", "inertial.inertia_not_positive_definite", "InertiaNotPositiveDefinite"),

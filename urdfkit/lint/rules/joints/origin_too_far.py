@@ -157,6 +157,9 @@ class OriginTooFar(RobotRule):
         origin = joint.element.find("origin")
         if gap < max(_MIN_OPEN, _OPEN * size) or second > _CLOSED * gap or origin is None:
             return
+        rest, part = _sides(joint, model)
+        if any(_distance(a, b) < _MIN_OPEN for a in part for b in rest):
+            return  # Another part of the body, such as a rail, carries it.
         message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
         message += "all other moving joints are at their parent links"
         help = "check the axes, signs and units of the origin"
@@ -170,6 +173,15 @@ def _times_its_links(joint: Joint, sizes: dict[str, float]) -> float:
 
 def _gap(joint: Joint, model: Model) -> float:
     """Return the distance between the parts below a joint and the rest of the robot [m]; 0 if either is long."""
+    rest, part = _sides(joint, model)
+    if not rest or not part:
+        return 0.0
+    gap = min(_distance(a, b) for a in part for b in rest)
+    return gap if gap > _PART_OF_LENGTH * max(_length(rest), _length(part)) else 0.0
+
+
+def _sides(joint: Joint, model: Model) -> tuple[list[Corners], list[Corners]]:
+    """Return the boxes around the links that are not below a joint, and around those below it."""
     below, pending = {joint.child}, [joint.child]
     children: dict[str | None, list[str | None]] = {}
     for other in model.robot.joints:
@@ -183,12 +195,7 @@ def _gap(joint: Joint, model: Model) -> float:
     for name, extent in model.extents.items():
         if name in model.frames:
             sides[name in below].append(_corners(model.frames[name], extent))
-    rest, part = sides
-    if not rest or not part:
-        return 0.0
-    gap = min(_distance(a, b) for a in part for b in rest)
-    lengths = [_length(boxes) for boxes in sides]
-    return gap if gap > _PART_OF_LENGTH * max(lengths) else 0.0
+    return sides
 
 
 def _corners(frame: Frame, extent: Extent) -> Corners:

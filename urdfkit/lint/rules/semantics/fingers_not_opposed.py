@@ -11,7 +11,8 @@ from urdfkit.lint.model.placement import Frame
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FINGER = re.compile(r"finger|grip|jaw|claw|thumb", re.IGNORECASE)
-_NUMBER = re.compile(r"(?<!\d)1(?!\d)")
+_FIRST = {"1": "2", "a": "b", "A": "B"}
+_NUMBER = re.compile(r"(?<!\d)1(?!\d)|(?<![A-Za-z])[aA](?![A-Za-z])")
 _ALONG = 0.3
 """Cosine of the angle from which fingers that move along a line do not approach each other."""
 
@@ -21,9 +22,9 @@ class FingersNotOpposed(RobotRule):
 
     ## What it does
     Compares two ``prismatic`` joints of one parent link with ``finger``, ``grip``, ``jaw`` or ``claw`` in their names.
-    One joint mimics the other, or their names differ only in a side or in the numbers 1 and 2. Between their limits,
-    the distance between the fingers must change, the fingers must not pass through each other, and fingers of the same
-    shape must not be in the same place. A missing mesh counts as a point.
+    One joint mimics the other, or their names differ only in a side, in the numbers 1 and 2 or in the letters a and b.
+    Between their limits, the distance between the fingers must change, the fingers must not pass through each other,
+    and fingers of the same shape must not be in the same place. A missing mesh counts as a point.
 
     ## Why is this bad?
     The gripper does not close. The usual cause is the sign of an axis, or of the multiplier of ``<mimic>``.
@@ -72,7 +73,9 @@ def _pairs(model: Model) -> Iterator[tuple[Joint, Joint]]:
     """Yield the pairs of fingers of one parent; of a joint that mimics another one, the other one first."""
     joints = model.robot.joint_by_name
     found: dict[frozenset[str], tuple[Joint, Joint]] = {}
-    numbered = [(each, joints.get(_NUMBER.sub("2", each.name))) for each in model.robot.joints]
+    numbered = [
+        (each, joints.get(_NUMBER.sub(lambda found: _FIRST[found[0]], each.name))) for each in model.robot.joints
+    ]
     for second in model.robot.joints:
         first = joints.get(second.mimic.joint or "") if second.mimic is not None else None
         if first is not None and first is not second:
