@@ -1,10 +1,11 @@
-"""Frames ``map`` and ``odom`` under other names, which one node uses and no other node publishes or uses."""
+"""Frames of navigation: names that only one node uses, and links that would have two parents."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.facts.navigation.sections import sections
@@ -19,6 +20,8 @@ _ROLES = {
 }
 """Parameter → the frames that it can name, by their usual names."""
 
+_MOVING = "diff_drive_controller/"
+"""Part of the types of controllers that publish the transform of ``base_frame_id``."""
 
 _PAIRS = (
     *(("map_frame", "odom_frame"), ("odom_frame", "base_frame"), ("global_frame_id", "odom_frame_id")),
@@ -76,3 +79,28 @@ def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
         if frame.isidentifier() and words.occurs_once(frame):
             shown = " or ".join(f"`{name}`" for name in others[:3])
             yield source, value, f"no other file names the frame `{frame}` of `{key.text}`; other nodes use {shown}"
+
+
+def second_parents(model: Model) -> Iterator[tuple[Source, Node, str]]:
+    """Yield the base frames of controllers and filters that publish the transform of a link that has a parent.
+
+    Sources: diff_drive_controller (userdoc.rst), robot_localization (README).
+    """
+    roots = model.robot.roots()
+    root = roots[0].name if len(roots) == 1 and not model.is_incomplete else None
+    for source in yamls(model) if root is not None else ():
+        groups = [(one.group, "base_frame_id", "enable_odom_tf") for one in settings(source) if _MOVING in one.kind]
+        groups += [(node, "base_link_frame", "publish_tf") for node in nodes(source) if _is_local(node)]
+        for group, name, flag in groups:
+            frame, publishes = group.find(name), group.find(flag)
+            link = frame.text.strip("/") if frame is not None else ""
+            is_off = publishes is not None and publishes.text.lower() == "false"
+            if frame is not None and link != root and link in model.robot.link_by_name and not is_off:
+                message = f"`{name}` is `{link}`, but the root link is `{root}`: `{link}` has two parents in TF"
+                yield source, frame, message
+
+
+def _is_local(node: Node) -> bool:
+    """Return whether a node of a YAML file is a filter of robot_localization that moves the robot in its odom frame."""
+    world, odom = node.find("world_frame"), node.find("odom_frame")
+    return world is not None and world.text == (odom.text if odom is not None else "odom")

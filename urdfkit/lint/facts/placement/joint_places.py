@@ -70,7 +70,8 @@ def misplaced(model: Model) -> Iterator[Place]:
         return
     if len({_origin(joint).origin.position for joint, _ in compared}) > _FEWEST:
         size = one.parent.diagonal
-        is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None
+        is_in_tube = one.joint.type == "prismatic"  # The stage of a telescope is inside of the one before.
+        is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None and not is_in_tube
         if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
 

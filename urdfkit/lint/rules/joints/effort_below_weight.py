@@ -12,7 +12,7 @@ _UPRIGHT = 0.9
 
 
 class EffortBelowWeight(RobotRule):
-    """A lift is too weak for what it carries.
+    """A lift is too weak for its load.
 
     ## What it does
     Compares the effort limits of ``prismatic`` joints with the weight of all links that they carry, if their axis is
@@ -56,9 +56,7 @@ class EffortBelowWeight(RobotRule):
                 continue
             mass = _mass_below(joint, model)
             if effort < mass * _GRAVITY * abs(axis[2]):
-                message = (
-                    f"effort limit {effort:g} N of joint `{joint.name}` is less than the weight of what it carries, "
-                )
+                message = f"effort limit {effort:g} N of joint `{joint.name}` is less than the weight of its load, "
                 message += f"{mass * _GRAVITY:.4g} N ({mass:.4g} kg)"
                 yield self.at(model, joint.limit.element, message, attribute="effort", joint=joint.name)
 

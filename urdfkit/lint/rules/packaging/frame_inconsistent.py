@@ -10,7 +10,8 @@ class FrameInconsistent(RobotRule):
     Compares ``odom_frame``, ``odom_frame_id``, ``local_frame``, ``map_frame``, ``global_frame_id`` and ``global_frame``
     in YAML with each other and with the odometry frames of plugins. Reports a frame other than ``map`` and ``odom`` if
     another node uses a different frame and the name occurs nowhere else in the files and code of these packages. Also
-    reports a node whose two frames are equal.
+    reports a node whose two frames are equal, and controllers and filters of robot_localization whose base frame is not
+    the root link, so that the link has two parents.
 
     ## Why is this bad?
     The node waits for a transform that no node publishes, or publishes a transform that no other node uses.
@@ -35,8 +36,8 @@ class FrameInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each frame that occurs once."""
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
-        from urdfkit.lint.facts.navigation.frames import equal_frames, lone_frames
+        from urdfkit.lint.facts.navigation.frames import equal_frames, lone_frames, second_parents
 
         equal = [(source, *found) for source in yamls(model) for found in equal_frames(source)]
-        for source, node, message in (*lone_frames(model), *equal):
+        for source, node, message in (*lone_frames(model), *second_parents(model), *equal):
             yield self.at_span(span_of(source, node), message)
