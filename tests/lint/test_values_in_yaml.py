@@ -43,6 +43,13 @@ MOVER = """mover:
     high: [0.1, -0.5, 0.5, -0.5, 0.5]
     max_torques: [50.0, 50.0, 50.0, 50.0, 50.0]
 """
+FOLDER = """folder:
+  ros__parameters:
+    joints: [j1, j2, j3]
+    folded: [0.0, -1.5, 0.5]
+    unfolded: [0.1, -0.5, 0.5]
+    ratio_between: [0.2, 0.4]
+"""
 DRIVE = """controller_manager:
   ros__parameters:
     drive: {type: diff_drive_controller/DiffDriveController}
@@ -68,12 +75,13 @@ BRIDGE = """- ros_topic_name: joint_states
   direction: GZ_TO_ROS
 """
 FAKE = "initial:\n  - group: arm\n    pose: home\n"
-FILES = {"mover.yaml": MOVER, "drive.yaml": DRIVE, "nav2.yaml": NAVIGATION}
+FILES = {"mover.yaml": MOVER, "folder.yaml": FOLDER, "drive.yaml": DRIVE, "nav2.yaml": NAVIGATION}
 FILES |= {"bridge.yaml": BRIDGE, "fake_controllers.yaml": FAKE}
 
 MISTAKES = [
     ("mover.yaml", "low: [0.0, ", "low: [", "K971", 4, "`low` has 4 values for 5 joints"),
     ("mover.yaml", "high: [0.1, -0.5", "high: [0.1, -2.5", "K971", 5, "`high` has -2.5 for joint `j2`"),
+    ("folder.yaml", " folded: [0.0, ", " folded: [", "K971", 4, "`folded` has 2 values for 3 joints"),
     ("mover.yaml", "mover:", "movers:", "L117", 1, "no node is called `movers`; did you mean `mover`?"),
     ("mover.yaml", "mover:", "arm_moves:", "L117", 1, "no node is called `arm_moves`; did you mean `mover`?"),
     ("drive.yaml", "min_velocity: -0.2", "min_velocity: 0.2", "K971", 8, "the robot cannot stop"),

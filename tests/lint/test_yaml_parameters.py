@@ -264,8 +264,8 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
         (
             "moveit",
             "max_velocity: 2.0",
-            "max_velocity: 25.0",
-            "10: `max_velocity` of joint `elbow` is 25 rad/s, but its",
+            "max_velocity: 4.5",
+            "10: `max_velocity` of joint `elbow` is 4.5 rad/s, but its",
         ),
         ("moveit", "-2.5", '"-2.5"', '7: `min_position` of joint `elbow` is "-2.5", a quoted string'),
         (

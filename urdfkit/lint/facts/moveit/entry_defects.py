@@ -74,6 +74,10 @@ def _is_misspelt(name: str, found: Iterable[str]) -> bool:
     )
 
 
+_BEYOND = {"position": 5.0, "velocity": 2.0}
+"""Smallest ratio of a limit of MoveIt to that of the robot that is not meant; positions are often widened."""
+
+
 def limit_defects(entry: MoveitEntry, joint: Joint | None) -> Defects:
     """Yield values of ``joint_limits`` that are no numbers, and limits in degrees or beyond those of the robot."""
     limits = joint.limit if joint is not None else None
@@ -104,7 +108,7 @@ def limit_defects(entry: MoveitEntry, joint: Joint | None) -> Defects:
         if joint.type != "prismatic" and abs(ratio / _DEGREES - 1.0) < 0.005:
             message = f"`{key.text}` of joint `{entry.name.text}` is {value:g}: the limit {bound:g} {unit} in degrees"
             yield node, f"{message}; write {bound:g}"
-        elif ratio >= 5.0:
+        elif ratio >= _BEYOND[quantity]:
             yield (
                 node,
                 f"`{key.text}` of joint `{entry.name.text}` is {value:g} {unit}, but its limit is {bound:g} {unit}",

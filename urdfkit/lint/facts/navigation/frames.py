@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
-from urdfkit.lint.facts.gazebo.plugins import references
+from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, references
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.topics.graph import published_by_type
 from urdfkit.lint.facts.topics.words import Words
@@ -88,7 +88,7 @@ def second_parents(model: Model) -> Iterator[tuple[Source, Node, str]]:
     """
     roots = model.robot.roots()
     root = roots[0].name if len(roots) == 1 and not model.is_incomplete else None
-    for source in yamls(model) if root is not None else ():
+    for source in yamls(model) if root is not None and root not in OUTSIDE_FRAMES else ():
         groups = [(one.group, "base_frame_id", "enable_odom_tf") for one in settings(source) if _MOVING in one.kind]
         groups += [(node, "base_link_frame", "publish_tf") for node in nodes(source) if _is_local(node)]
         for group, name, flag in groups:

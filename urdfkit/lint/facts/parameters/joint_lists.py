@@ -20,8 +20,11 @@ _NO_POSITIONS = (
 )
 """Matches names of lists that are not positions of joints."""
 
-_FEWEST = 4
+_FEWEST, _FEWEST_OF_POSITIONS = 4, 3
+"""Smallest number of joints whose lists are compared; the second for lists that are named as positions."""
+
 _MOST_LACKING = 2
+"""Largest difference of the lengths of lists that a missing value explains."""
 
 
 def list_defects(source: Source, robot: Robot) -> Iterator[tuple[Node, str]]:
@@ -40,7 +43,11 @@ def list_defects(source: Source, robot: Robot) -> Iterator[tuple[Node, str]]:
             lacking = abs(len(value.items) - len(names))
             if lacking == 0:
                 yield from _beyond(key.text, value, names, robot)
-            elif is_listed and len(names) >= _FEWEST and lacking <= _MOST_LACKING:
+            elif (
+                is_listed
+                and len(names) >= (_FEWEST_OF_POSITIONS if re.search(_POSITION, key.text) else _FEWEST)
+                and lacking <= _MOST_LACKING
+            ):
                 yield value, f"`{key.text}` has {len(value.items)} values for {len(names)} joints"
 
 
