@@ -227,8 +227,17 @@ def _is_unpublished(topic: str, source: Source, model: Model) -> bool:
 
 def _is_only_here(topic: str, model: Model) -> bool:
     """Return whether no other place of the files around the robot names a topic, so that no node publishes it."""
-    pattern = rf"(?<!\w){re.escape(topic)}(?!\w)"
-    return sum(len(re.findall(pattern, source.text)) for source in model.related_files.values()) == 1
+    pattern = rf"(?<!\w){re.escape(topic)}(?![\w/])"
+    texts = [source.text for source in model.related_files.values()]
+    uses = ((text, at.start()) for text in texts for at in re.finditer(pattern, text))
+    return sum(re.search(_PACKAGE_BEFORE, text[max(at - 60, 0) : at]) is None for text, at in uses) == 1
+
+
+_PACKAGE_BEFORE = (
+    r"(?:[Ss]hare\w*\s*\(|\bfind(?:-pkg-share)?\s|\bpkg\s*[=:]|\bpackage(?:_name)?[\"']?\s*[=:]|depend>|<name>"
+    r"|\bproject\s*\()\s*[\"']?$"
+)
+"""Matches the text before the name of a package, which can be that of a topic too."""
 
 
 def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
