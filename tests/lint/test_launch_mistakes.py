@@ -212,6 +212,38 @@ def test_parameters_that_a_launch_file_of_ros1_loads(tmp_path, change, line, mes
     assert found(cart, "L110") == ([("all.launch", line, message)] if message else [])
 
 
+PIPELINE = """<launch>
+  <arg name="adapters"
+       default="{adapters}"/>
+  <param name="planning_plugin" value="{plugin}"/>
+  <param name="request_adapters" value="{value}"/>
+</launch>
+"""
+BOUNDS = [f"default_planner_request_adapters/{name}" for name in ("FixWorkspaceBounds", "FixStartStateBounds", "Empty")]
+OMPL = "ompl_interface/OMPLPlanner"
+
+
+@pytest.mark.parametrize(
+    ("last", "plugin", "value", "line"),
+    [
+        ("", OMPL, "$(arg adapters)", 3),
+        ("", OMPL, " ".join(BOUNDS), 5),
+        ("default_planner_request_adapters/AddTimeParameterization", OMPL, "$(arg adapters)", 0),
+        ("default_planner_request_adapters/AddIterativeSplineParameterization", OMPL, "$(arg adapters)", 0),
+        ("cart_planning/Timing", OMPL, "$(arg adapters)", 0),
+        ("", "pilz_industrial_motion_planner::CommandPlanner", "$(arg adapters)", 0),
+        ("", OMPL, "$(arg others)", 0),
+    ],
+)
+def test_a_pipeline_of_ros1_needs_an_adapter_that_adds_times(tmp_path, last, plugin, value, line):
+    cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
+    adapters = " ".join([*BOUNDS, last])
+    write(cart / "launch/ompl.launch.xml", PIPELINE.format(adapters=adapters, plugin=plugin, value=value))
+    assert [each[:2] for each in found(cart, "L110") if "no time parameterization" in each[2]] == (
+        [("ompl.launch.xml", line)] if line else []
+    )
+
+
 SPAWNS = """
 import os
 from ament_index_python.packages import get_package_share_directory
@@ -233,6 +265,7 @@ def setup(context):
 def generate_launch_description():
     return LaunchDescription([OpaqueFunction(function=setup)])
 """
+MODEL = '><param name="path" value="$(find-pkg-share cart_model)"/></node'
 STATE = '<launch>\n  <node pkg="robot_state_publisher" exec="robot_state_publisher"{}/>\n</launch>\n'
 DRIVES = """
 from launch import LaunchDescription
@@ -255,6 +288,7 @@ def generate_launch_description():
         ("robot_description", "", "", None),
         ("robot_model", "", "", ("all.launch.py", 15, "no node publishes topic `robot_model`; did you mean")),
         ("robot_model", "", '><remap from="robot_description" to="robot_model"/></node', None),
+        ("cart_model", "", MODEL, ("all.launch.py", 15, "no node publishes topic `cart_model`; did you mean")),
         (
             "robot_description",
             "/a",

@@ -309,6 +309,15 @@ MISTAKES = [
         8,
         "costmap.yaml has parameters of costmaps, which these",
     ),
+    (
+        ROS1,
+        "navigate.launch",
+        ' ns="local_costmap"',
+        ' ns="local_map"',
+        "L110",
+        8,
+        "which move_base does not read from `local_map`; did yo",
+    ),
     (ROS1, "costmap.yaml", "obstacle_range", "obstacle_max_range", "K971", 9, "did you mean `obstacle_range`?"),
     (
         ROS1,

@@ -96,15 +96,19 @@ def _pipeline(node: Node) -> Defects:
         release = "before Jazzy" if is_old else "since Jazzy"
         yield key, f"`request_adapters` has adapters of releases {release}, which read `{right}`, not `{wrong}`"
     planners = [text for each in (wrong, right) if (value := node.find(each)) is not None for text in value.texts()]
-    is_timed = any(re.search(r"/Add\w*(?:Parameterization|Smoothing)", name) for name in names)
-    if "ompl_interface/OMPLPlanner" in planners and not is_timed and len(names) > 2:
-        name = "request_adapters" if is_old else "response_adapters"
-        key = next((each for each, _ in node.entries if each.text == name), None)
-        if key is not None:
-            message = (
-                "has no time parameterization; add `AddTimeOptimalParameterization`, or trajectories have no times"
-            )
-            yield key, f"`{name}` {message}"
+    name = "request_adapters" if is_old else "response_adapters"
+    key = next((each for each, _ in node.entries if each.text == name), None)
+    if key is not None and is_untimed(planners, names):
+        yield key, f"`{name}` {WITHOUT_TIMES}"
+
+
+WITHOUT_TIMES = "has no time parameterization; add `AddTimeOptimalParameterization`, or trajectories have no times"
+
+
+def is_untimed(planners: Collection[str], adapters: Collection[str]) -> bool:
+    """Return whether a pipeline with OMPL, which gives a trajectory no times, has no adapter that adds them."""
+    is_timed = any(re.search(r"/Add\w*(?:Parameterization|Smoothing)", name) for name in adapters)
+    return "ompl_interface/OMPLPlanner" in planners and not is_timed and len(adapters) > 2
 
 
 def _of_both_releases(lists: list[Node]) -> Defects:

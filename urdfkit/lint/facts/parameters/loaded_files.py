@@ -1,23 +1,26 @@
 """Parameter files that ROS 1 launch files load, and the parameters of MoveIt and Gazebo that depend on these.
 
-The behaviour is that of roslaunch, MoveIt and gazebo_ros of Noetic; the sources were not compared.
+The behaviour is that of roslaunch, MoveIt and gazebo_ros of Noetic; the sources were not compared, except for the
+names of the costmaps (navigation, move_base.cpp).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, nearest
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.yaml_tree import documents
 from urdfkit.lint.facts.launch.actions import actions_of, share_of
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files
+from urdfkit.lint.facts.moveit.planning import WITHOUT_TIMES, is_untimed
 from urdfkit.lint.facts.navigation.sections import COSTMAPS
 from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1
 from urdfkit.lint.model.model import Model
@@ -51,7 +54,7 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         namespace = _namespace(tag)
         is_of_costmaps = tag.parent is not None and tag.parent.name == "node" and _program(tag.parent) == "move_base"
         if is_of_costmaps and (message := _unread_by_costmaps(parameters, _own_namespace(tag))) is not None:
-            yield file, f"{name} {message}"
+            yield file, f"{name} " + message
         for end, expected in _EXPECTED.items():
             is_other = re.search(r"(?m)^[ \t]*[\w/]+[ \t]*:", text) and not any(word in text for word in expected)
             if namespace.endswith(f"robot_description{end}") and is_other:
@@ -92,6 +95,10 @@ def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
         return 'has parameters of costmaps, which these read in their namespace only; add `ns="local_costmap"`'
     if namespace in COSTMAPS and namespace in names:
         return f"names `{namespace}` too, so its parameters are in `{namespace}/{namespace}`; remove `ns`"
+    is_elsewhere = namespace != "" and "$" not in namespace and namespace.partition("/")[0] not in COSTMAPS
+    if is_elsewhere and not names & {*COSTMAPS} and len(names & COSTMAP_ROS1) + len(names & _LAYERS) > 2:
+        message = f"has parameters of costmaps, which move_base does not read from `{namespace}`"
+        return message + Suggestion(nearest(namespace, COSTMAPS, cutoff=0.6), namespace)
     return None
 
 
@@ -119,6 +126,36 @@ def unloaded_pipelines(source: Source, model: Model) -> Defects:
         is_default = tag.name == "param" and name is not None and name.value.endswith("default_planning_pipeline")
         if is_default and value is not None and "$" not in value.value and value.value not in names:
             yield value, f"planning pipeline `{value.value}` is not loaded; loaded: {', '.join(sorted({*names}))}"
+
+
+def untimed_pipelines(source: Source) -> Defects:
+    """Yield the ``request_adapters`` of a ROS 1 launch file that add no times to the trajectories of OMPL."""
+    if "request_adapters" not in source.text:
+        return
+    tags = list(_tags(source))
+    written = {tag.attributes["name"].value: tag.attributes for tag in tags if "name" in tag.attributes}
+    for tag in tags:
+        name, adapters = (tag.attributes.get(key) for key in ("name", "value"))
+        if tag.name != "param" or name is None or adapters is None or name.value.rpartition("/")[2] != _ADAPTERS:
+            continue
+        plugin = written.get(name.value.replace(_ADAPTERS, "planning_plugin"), {}).get("value")
+        adapters, plugin = (_of_argument(each, written) for each in (adapters, plugin))
+        words = adapters.value.split() if adapters is not None else []
+        is_listed = all(word.startswith("default_planner_request_adapters/") for word in words)
+        if adapters is not None and plugin is not None and is_listed and is_untimed((plugin.value.strip(),), words):
+            yield adapters, f"`{_ADAPTERS}` {WITHOUT_TIMES}"
+
+
+_ADAPTERS = "request_adapters"
+
+
+def _of_argument(value: Attribute | None, written: Mapping[str, Mapping[str, Attribute]]) -> Attribute | None:
+    """Return the default of the argument that a value stands for, and other values as they are."""
+    use = re.fullmatch(r"\s*\$\(arg\s+([\w-]+)\s*\)\s*", value.value) if value is not None else None
+    if use is None:
+        return value
+    argument = written.get(use[1], {})
+    return argument.get("default") or argument.get("value")
 
 
 def spawned_while_paused(source: Source, model: Model) -> Defects:

@@ -37,7 +37,7 @@ class LaunchValueInvalid(RobotRule):
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
     - parameter files with substitutions but without ``subst_value``, and MoveIt files in the wrong namespace or
       parameter
-    - a default planning pipeline that is not loaded
+    - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,
       and ``value`` for the text itself
@@ -72,6 +72,7 @@ class LaunchValueInvalid(RobotRule):
             spawned_while_paused,
             unloaded_pipelines,
             unread_semantics,
+            untimed_pipelines,
         )
         from urdfkit.lint.model.tags import Document
 
@@ -95,6 +96,7 @@ class LaunchValueInvalid(RobotRule):
                 *unloaded_pipelines(source, model),
                 *spawned_while_paused(source, model),
                 *unread_semantics(source, model),
+                *untimed_pipelines(source),
             )
             for attribute, message in found_in_files if version == 1 else ():
                 span = source.span(attribute.value_start, attribute.value_end)
