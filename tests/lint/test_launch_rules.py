@@ -374,6 +374,32 @@ def test_the_methods_of_the_moveit_builder_are_checked(source, call, message):
 
 
 @pytest.mark.parametrize(
+    ("parameters", "more", "is_reported"),
+    [
+        ("config.robot_description, config.robot_description_semantic, {'use_sim_time': True}", "", True),
+        ("{'use_sim_time': True}", "", True),
+        ("config.to_dict()", "", False),
+        ("whole, {'use_sim_time': True}", "", False),
+        ("config.robot_description, config.planning_pipelines", "", False),
+        ("config.robot_description, {'planning_pipelines.pipeline_names': ['ompl']}", "", False),
+        ("config.robot_description, other", "", False),
+        ("config.robot_description", "config.robot_description.update(other)", False),
+    ],
+)
+def test_move_group_needs_the_planning_pipelines_of_its_configuration(source, parameters, more, is_reported):
+    package = ros2_package(source, "<exec_depend>moveit_ros_move_group</exec_depend>")
+    text = f"""from moveit_configs_utils import MoveItConfigsBuilder
+
+config = MoveItConfigsBuilder("cart", package_name="cart_moveit_config").to_moveit_configs()
+whole = config.to_dict()
+{more}
+node = Node(package="moveit_ros_move_group", executable="move_group", parameters=[{parameters}])
+"""
+    write(package / "launch/move.launch.py", text)
+    assert any("`move_group` needs the planning pipelines" in each for each in findings(source)) is is_reported
+
+
+@pytest.mark.parametrize(
     ("text", "is_reported"),
     [
         ("from nav2_common.launch import RewrittenYaml\n", True),

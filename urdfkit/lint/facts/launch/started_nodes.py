@@ -10,6 +10,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.python_names import python_files
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
+from urdfkit.lint.facts.nodes.started import MOVEIT_PARTS, part_of_moveit
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
@@ -25,7 +26,7 @@ class StartedNode:
         end: end offset of the node, or of its start tag.
         package: its package; empty if it is computed.
         program: its executable; empty if it is computed.
-        parameters: names of its parameters; None if there can be others, such as those of files.
+        parameters: names of its parameters, up to a dot; None if there can be others, such as those of files.
         has_arguments: whether it has command line arguments.
     """
 
@@ -55,7 +56,7 @@ def _from_tag(source: Source, tag: Tag) -> StartedNode:
     package, program = (attributes[name].value if name in attributes else "" for name in ("pkg", "exec"))
     inner = [child.attributes for child in tag.children if child.name == "param"]
     is_literal = all("name" in each and "$" not in each["name"].value for each in inner)
-    names = tuple(each["name"].value for each in inner) if is_literal else None
+    names = tuple(each["name"].value.partition(".")[0] for each in inner) if is_literal else None
     has_arguments = "args" in attributes or "ros_args" in attributes
     return StartedNode(source, tag.start, tag.end, package, program, names, has_arguments)
 
@@ -76,11 +77,17 @@ def _in_python(source: Source, tree: ast.Module) -> Iterator[StartedNode]:
 
 
 def _names(node: ast.expr, reader: LaunchReader, source: Source) -> tuple[str, ...] | None:
-    """Return the names of parameters in a list of dictionaries; None if it may contain others."""
+    """Return the names of parameters in a list of dictionaries; None if it may contain others.
+
+    A part of a MoveIt configuration counts as the parameter with its name.
+    """
     if not isinstance(node, ast.List):
         return None
     found: list[str] = []
     for item in node.elts:
+        if (part := part_of_moveit(item, reader, source)) is not None:
+            found += MOVEIT_PARTS if part == "to_dict" else (part,)
+            continue
         is_changed = isinstance(item, ast.Name) and any(f"{item.id}{end}" in source.text for end in ("[", ".update"))
         value = reader.assigned.get(item.id) if isinstance(item, ast.Name) else item
         if not isinstance(value, ast.Dict) or is_changed:
@@ -89,4 +96,4 @@ def _names(node: ast.expr, reader: LaunchReader, source: Source) -> tuple[str, .
         if None in texts:
             return None
         found += [text for text in texts if text is not None]
-    return tuple(found)
+    return tuple(name.partition(".")[0] for name in found)

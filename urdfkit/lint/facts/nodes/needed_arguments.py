@@ -26,16 +26,23 @@ _ROS1 = {
 }
 """Package and program of ROS 1 → what its arguments are."""
 
+_OF_PIPELINES = (
+    *("planning_pipelines", "planning_plugin", "planning_plugins", "move_group"),
+    *("ompl", "chomp", "stomp", "pilz_industrial_motion_planner"),
+)
+"""Parameters of move_group with a planning pipeline, one of them in the namespace of a pipeline."""
+
 _ROS2 = {
     ("controller_manager", "spawner"): ((), "the names of controllers"),
     ("gazebo_ros", "spawn_entity.py"): ((), "`-entity` and the description"),
+    ("moveit_ros_move_group", "move_group"): (_OF_PIPELINES, "the planning pipelines of the MoveIt configuration"),
     ("nav2_map_server", "map_server"): (("yaml_filename",), "the parameter `yaml_filename`"),
     ("ros_gz_bridge", "parameter_bridge"): (("config_file", "bridge_names"), "topics, or the parameter `config_file`"),
     ("ros_gz_sim", "create"): (("topic", "file", "string"), "`-topic`, `-file` or `-string`"),
 }
 """Package and program of ROS 2 → parameters that can replace its arguments, and what they are."""
 
-_BY_PARAMETER = ("nav2_map_server",)
+_BY_PARAMETER = ("moveit_ros_move_group", "nav2_map_server")
 """Packages whose programs have no command line arguments of their own."""
 
 

@@ -179,6 +179,27 @@ _CHANGED = r"\.update\(|\[\s*[\"']use_sim_time[\"']\s*\]\s*="
 """Matches a launch file that adds parameters to a dictionary."""
 
 
+MOVEIT_PARTS = (
+    *("robot_description", "robot_description_semantic", "robot_description_kinematics", "planning_pipelines"),
+    *("trajectory_execution", "planning_scene_monitor", "sensors_3d", "move_group_capabilities", "joint_limits"),
+    *("moveit_cpp", "pilz_cartesian_limits"),
+)
+"""Attributes of a MoveIt configuration, which ``to_dict`` returns together, in most releases without capabilities.
+
+Source: moveit_configs_utils, moveit_configs_builder.py (Humble to Rolling).
+"""
+
+
+def part_of_moveit(node: ast.expr | None, reader: LaunchReader, source: Source) -> str | None:
+    """Return the part of a MoveIt configuration that an expression names: an attribute, or ``to_dict``; else None."""
+    if isinstance(node, ast.Name):
+        node = reader.assigned.get(node.id)
+    part = node.func if isinstance(node, ast.Call) and not node.args else node
+    if not isinstance(part, ast.Attribute) or part.attr not in (*MOVEIT_PARTS, "to_dict"):
+        return None
+    return part.attr if _is_of_moveit(part, reader, source) else None
+
+
 def _is_of_moveit(node: ast.expr | None, reader: LaunchReader, source: Source) -> bool:
     """Return whether an expression is a part of a MoveIt configuration, which has no parameters of other nodes."""
     if _BUILDER not in source.text or re.search(_CHANGED, source.text):

@@ -10,7 +10,7 @@ class NodeArgumentsMissing(RobotRule):
     Checks the launch files for programs that stop without arguments: in ROS 1 ``map_server``, ``spawn_model``, the
     spawner of controllers, ``rosbag play``, the programs of ``topic_tools`` and ``static_transform_publisher``; in
     ROS 2 the spawner of controllers and ``spawn_entity.py``, ``parameter_bridge`` and ``create`` without parameters,
-    and ``map_server`` without ``yaml_filename``.
+    ``map_server`` without ``yaml_filename``, and ``move_group`` without a planning pipeline.
 
     ## Why is this bad?
     The node prints how it is used and exits, or waits without effect.
