@@ -69,3 +69,27 @@ def test_a_smoother_that_reads_its_own_output_is_reported(tmp_path, topic, expec
   </node>
 """
     assert found(tmp_path, {"guard.py": PYTHON}, slam="scan_topic: /scan", node=node) == expected
+
+
+READER = PYTHON.replace("topic, 1)", "'stop', 1)\n        self.create_subscription(LaserScan, 'ahead', self.read, 1)")
+READER_IN_CPP = CPP.replace("topic_, 1", '"stop", 1').replace(
+    "PUBLISHER", 'scan_ = create_subscription<sensor_msgs::msg::LaserScan>("ahead", 1, read);'
+)
+COMPONENT = '  <node_container pkg="rclcpp_components" exec="component_container"><composable_node/></node_container>\n'
+
+
+@pytest.mark.parametrize(
+    ("code", "topic", "more", "expected"),
+    [
+        ({"guard.py": READER}, "/front/scan", "", [("K977", 17)]),
+        ({"guard.cpp": READER_IN_CPP}, "/front/scan", "", [("K977", 17)]),
+        ({"guard.py": READER}, "/scan", "", []),
+        ({"guard.py": READER.replace("LaserScan, 'ahead'", "kind, 'ahead'")}, "/front/scan", "", []),
+        ({"guard.py": READER}, "/front/scan", '  <node pkg="base_driver" exec="driver"/>\n', []),
+        ({"guard.py": READER}, "/front/scan", COMPONENT, []),
+    ],
+)
+def test_the_remapped_input_of_an_own_node_needs_a_publisher(tmp_path, code, topic, more, expected):
+    node = f'  <node pkg="cart" exec="guard" name="ahead">\n    <remap from="ahead" to="{topic}"/>\n  </node>\n{more}'
+    reported = found(tmp_path, code, slam="scan_topic: /scan", node=node)
+    assert [each for each in reported if each[0] == "K977"] == expected

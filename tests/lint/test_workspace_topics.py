@@ -143,3 +143,44 @@ def test_a_node_that_may_publish_odometry_is_trusted(tmp_path):
     for file, text in FILES.items():
         (tmp_path / file).write_text(text.replace("<launch>", DRIVER).replace("odom0: odom", "odom0: wheel/odometry"))
     assert [one.code for one in lint(tmp_path, target="ros2") if one.file.endswith(".yaml")] == []
+
+
+GPS = """  <link name="gps"/>
+  <joint name="gps_joint" type="fixed"><parent link="base_link"/><child link="gps"/></joint>
+  <gazebo reference="gps">
+    <sensor name="gps" type="gps">
+      <plugin name="gps" filename="libgazebo_ros_gps_sensor.so">
+        <ros><namespace>gps</namespace><remapping>~/out:={}</remapping></ros>
+      </plugin>
+    </sensor>
+  </gazebo>
+</robot>
+"""
+NAVSAT = """  <node pkg="robot_localization" exec="navsat_transform_node" name="navsat_transform">
+    <remap from="imu" to="imu/data"/>{}
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("topic", "remapping", "driver", "is_reported"),
+    [
+        ("fix", "", "", False),
+        ("position", "", "", True),
+        ("position", '<remap from="gps/fix" to="gps/position"/>', "", False),
+        ("position", "", '<node pkg="base_driver" exec="driver"/>', False),
+    ],
+)
+def test_the_receiver_publishes_the_positions_that_navsat_transform_reads(
+    tmp_path, topic, remapping, driver, is_reported
+):
+    (tmp_path / "cart.urdf").write_text(ROBOT.replace("</robot>\n", GPS.format(topic)))
+    for file, text in FILES.items():
+        text = text.replace("base_driver", "robot_state_publisher").replace("</launch>\n", NAVSAT.format(remapping))
+        (tmp_path / file).write_text(text.replace("<launch>\n", f"<launch>{driver}\n"))
+    found = [one.message for one in lint(tmp_path, target="ros2") if one.code == "K977"]
+    message = (
+        "no other file names the topic `gps/fix`, which `navsat_transform_node` reads; did you mean `gps/position`?"
+    )
+    assert found == ([message] if is_reported else [])

@@ -50,6 +50,7 @@ _TYPES = {
 _ROS_TYPES = {
     "laser": "LaserScan",
     **dict.fromkeys(("imu", "imu_sensor", "hector_imu"), "Imu"),
+    **dict.fromkeys(("gps", "hector_gps"), "NavSatFix"),
 }
 """Kind of a plugin of Gazebo Classic → ROS type of its messages."""
 

@@ -64,18 +64,39 @@ def is_closed(model: Model, type: str) -> bool:
     is_listed = all(receiver(call, model) is not None or call.package in _INCLUDED for call in calls)
     cameras = {package for package in CAMERAS if not may_publish(package, type)}
     others = {node.package for node in open_nodes} - names - cameras
+    if type == "Image" and (_has_camera_plugin(model) or _matches(model, _OF_IMAGES)):
+        return False
     are_readable = all(own_publications(model, package) is not None for package in sorted(others))
     return bool(nodes or calls) and is_listed and are_readable
 
 
+_OF_IMAGES = r"\bimage_proc\b|\bimage_transport\b|image_bridge"
+_COMPONENTS = r"[Cc]omposable_?[Nn]ode|\bnodelet\b"
+
+
+def starts_components(model: Model) -> bool:
+    """Return whether a launch file starts components or nodelets, which `launched_nodes` does not return."""
+    return _matches(model, _COMPONENTS)
+
+
+def _matches(model: Model, pattern: str) -> bool:
+    return any(re.search(pattern, file.source.text) for file in launch_files(model))
+
+
+def _has_camera_plugin(model: Model) -> bool:
+    """Return whether a plugin of Gazebo Classic publishes images, which `published` gives no type."""
+    specs = (spec_of(plugin, model.target) for plugin, _, sensor in plugins(model.robot) if sensor is not None)
+    return any(spec is not None and spec.generation != "gz" and re.search("camera|kinect", spec.kind) for spec in specs)
+
+
 def has_namespaces(model: Model) -> bool:
     """Return whether a launch file starts nodes in a namespace, so that relative names of topics differ."""
-    return any(re.search(_NAMESPACES, file.source.text) for file in launch_files(model))
+    return _matches(model, _NAMESPACES)
 
 
 def remaps_groups(model: Model) -> bool:
     """Return whether a launch file remaps topics of all nodes in a group."""
-    return any(re.search(_REMAPS, file.source.text) for file in launch_files(model))
+    return _matches(model, _REMAPS)
 
 
 def remapped(node: LaunchedNode, topic: str) -> str:

@@ -18,7 +18,7 @@ from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.names import name_of_node
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.topics.graph import published_by_type, remapped
-from urdfkit.lint.facts.topics.misspelt import mentions
+from urdfkit.lint.facts.topics.mentions import mentions
 from urdfkit.lint.facts.topics.node_topics import command_topics
 from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.facts.topics.velocity_commands import drive_command_topics

@@ -5,29 +5,30 @@ A name that occurs twice in the files of the packages is accepted, because two n
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
 from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source, Span
-from urdfkit.lint.facts.control.controller_joints import Named
-from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.control.yaml_tree import nodes, start_of
-from urdfkit.lint.facts.launch.actions import all_elements
+from urdfkit.lint.facts.control.yaml_tree import start_of
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.ros_packages import is_slip
-from urdfkit.lint.facts.topics.graph import has_namespaces, is_closed, published_by_type, remapped
+from urdfkit.lint.facts.topics.graph import (
+    has_namespaces,
+    is_closed,
+    published_by_type,
+    remapped,
+    starts_components,
+)
 from urdfkit.lint.facts.topics.loops import published_together, swapped_types
+from urdfkit.lint.facts.topics.mentions import Mention, mentions, topics_of_receivers
 from urdfkit.lint.facts.topics.node_topics import topics_of
-from urdfkit.lint.facts.topics.robot_topics import BRIDGE_KEYS, RobotTopics, last, robot_topics
+from urdfkit.lint.facts.topics.robot_topics import RobotTopics, last, robot_topics
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
-from urdfkit.record import record
 
 _COMMON = """
 cmd_vel cmd_vel_joy cmd_vel_nav cmd_vel_out cmd_vel_smoothed cmd_vel_teleop cmd_vel_unstamped odom scan
@@ -39,42 +40,8 @@ _ACCEPTED = (
     "joint_states clock tf tf_static map imu odometry image image_raw camera_info points robot_description pose twist"
 )
 
-_PARAMETER = r"(?:\w+_)?topic|(?:odom|imu|twist|pose)\d+"
-"""Matches parameters whose values are topics: of Nav2, slam_toolbox, twist_mux, robot_localization and others."""
-
-_TYPES = {
-    "scan_topic": "LaserScan",
-    "odom": "Odometry",
-    "odom_topic": "Odometry",
-    "imu": "Imu",
-    "pose": "PoseWithCovarianceStamped",
-    "twist": "TwistWithCovarianceStamped",
-    "point_cloud_topic": "PointCloud2",
-    "image_topic": "Image",
-}
-"""Parameter without its number → type of the messages that the node reads."""
-
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
 """Words added to the topic of a sensor that give a topic without publisher."""
-
-
-@record(eq=False)
-class Mention:
-    """A topic that a file names.
-
-    Attributes:
-        source: the file.
-        topic: the whole name, and its offset.
-        reads: whether a node only subscribes to the topic.
-        is_input: whether it is an input of robot_localization; parameter-value-invalid compares its controller.
-        type: ROS type of the messages that a node reads from it, without its package; empty if unknown.
-    """
-
-    source: Source
-    topic: Named
-    reads: bool = False
-    is_input: bool = False
-    type: str = ""
 
 
 def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
@@ -99,9 +66,10 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
     for mention, others in unpublished(model, words):
         if (mention.source.file, mention.topic.start) not in seen:
             near = others[0] if len(others) == 1 else nearest(mention.topic.name.strip("/"), others, cutoff=0.75)
-            span = mention.source.span(mention.topic.start, mention.topic.end)
-            listed = f"; {_listed(mention.type, others)}"
-            yield span, mention.topic.name, Suggestion(near, mention.topic.name) if near is not None else listed
+            end = mention.topic.start + len(mention.reader) if mention.reader else mention.topic.end
+            use = f", which `{mention.reader}` reads" if mention.reader else ""
+            hint = Suggestion(near, mention.topic.name) if near is not None else f"; {_listed(mention.type, others)}"
+            yield mention.source.span(mention.topic.start, end), mention.topic.name, use + hint
     for name, elements in topics.elements.items():
         if name in COMMON or name in topics.bridged or len(elements) > 1:
             continue
@@ -119,48 +87,20 @@ def _listed(kind: str, topics: list[str]) -> str:
     return f"the {kind} topics of these packages are {', '.join(f'`{topic}`' for topic in topics[:3])}"
 
 
-def mentions(model: Model) -> Iterator[Mention]:
-    """Yield the topics in remappings, parameters, arguments and bridges of the related files."""
-    for node in launched_nodes(model):
-        topics = topics_of(node.package, node.program)
-        is_python, inputs = node.source.file.endswith(".py"), topics.read if topics is not None else {}
-        for old, new in node.remappings:
-            kind = inputs.get(old.name.strip("/"), "").removeprefix("Twist")  # velocity_commands reports these
-            if is_python or kind:
-                yield Mention(node.source, old)
-                reads = last(old.name) in ("scan", "points", "image")
-                yield Mention(node.source, new, reads and is_python, type=kind)
-    for file, source in model.related_files.items():
-        if file.endswith((".launch.py", "_launch.py")):
-            yield from _in_python(source)
-        elif file.endswith(LAUNCH):
-            yield from _in_elements(source)
-        elif file.endswith((".yaml", ".yml")):
-            for group in (each for each in nodes(source) if each.kind == "group"):
-                is_bridge = any(group.find(key) is not None for key in ("ros_type_name", "gz_type_name"))
-                for key, value in group.entries:
-                    is_topic = key.text == BRIDGE_KEYS[0] if is_bridge else re.fullmatch(_PARAMETER, key.text)
-                    if is_topic and value.kind == "text" and re.fullmatch(r"[\w/]+", value.text):
-                        reads = key.text == "scan_topic" or group.find("data_type") is not None
-                        is_input = key.text[-1].isdigit()
-                        named = group.find("data_type")
-                        type = _TYPES.get(key.text.rstrip("0123456789"), named.text if named is not None else "")
-                        yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input, type)
-
-
 def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]]]:
     """Yield the topics that a node reads and nothing publishes, with the topics of the robot of that type.
 
     If the launch files may start another publisher, only a robot with one topic of the type is checked. Several
     mentions of a topic have one cause, such as a remapping, and are reported once.
     """
-    read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
+    named = (*mentions(model), *topics_of_receivers(model))
+    read = [mention for mention in named if mention.type and "$" not in mention.topic.name]
     closed = {type: is_closed(model, type) for type in dict.fromkeys(mention.type for mention in read)}
     by_type = {is_all: published_by_type(model, not is_all) for is_all in sorted(set(closed.values()))}
     if not any(by_type.values()):
         return
     controllers = robot_topics(model).controllers
-    in_namespaces = has_namespaces(model)
+    in_namespaces, has_components = has_namespaces(model), starts_components(model)
     has_camera, seen = _has_camera_driver(model), set[str]()
     places = [(mention.source.file, mention.topic.start) for mention in read]
     places += [(node.source.file, old.start) for node in launched_nodes(model) for old, _ in node.remappings]
@@ -184,6 +124,7 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
             topic in topics
             or topic in seen
             or mention.type in doubled
+            or (mention.needs_all and (has_components or not is_all))
             or (mention.type == "PointCloud2" and has_camera)
         ):
             continue
@@ -212,41 +153,6 @@ _CAMERA_DRIVERS = r"realsense|depthai|astra|zed_|orbbec|kinect_ros|azure_kinect|
 def _has_camera_driver(model: Model) -> bool:
     """Return whether files of the packages name a driver of depth cameras, which has topics of its own."""
     return any(re.search(_CAMERA_DRIVERS, source.text) for source in model.related_files.values())
-
-
-def _in_elements(source: Source) -> Iterator[Mention]:
-    for element in all_elements(source):
-        at = element.attributes
-        if element.tag == "remap":
-            reads = "from" in at and last(at["from"].name) == "scan"
-            yield from (Mention(source, at[key], reads and key == "to") for key in ("from", "to") if key in at)
-        elif element.tag in ("arg", "param", "let") and "name" in at and re.fullmatch(_PARAMETER, at["name"].name):
-            value = at.get("default") or at.get("value")
-            if value is not None and re.fullmatch(r"[\w/]+", value.name):
-                yield Mention(source, value, at["name"].name == "scan_topic", type=_TYPES.get(at["name"].name, ""))
-
-
-def _in_python(source: Source) -> Iterator[Mention]:
-    tree = parsed(source) if "topic" in source.text else None
-    if tree is None:
-        return
-    reader = launch_reader(tree)
-    pairs: list[tuple[ast.expr | None, ast.expr | None]] = []
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Dict):
-            pairs += zip(node.keys, node.values, strict=True)
-        elif isinstance(node, ast.Call) and name_of(node.func) == "DeclareLaunchArgument" and node.args:
-            words = {word.arg: word.value for word in node.keywords}
-            pairs.append((node.args[0], words.get("default_value")))
-    for key, value in pairs:
-        name = reader.text(key) if key is not None else None
-        if name is None or not re.fullmatch(_PARAMETER, name) or not isinstance(value, ast.Constant):
-            continue
-        if isinstance(value.value, str) and re.fullmatch(r"[\w/]+", value.value):
-            start, end = place(source, value)
-            offset = source.text[start:end].find(value.value)
-            topic = Named(value.value, start + max(offset, 0))
-            yield Mention(source, topic, name == "scan_topic", type=_TYPES.get(name, ""))
 
 
 def _meant(mention: Mention, topics: RobotTopics) -> str | None:

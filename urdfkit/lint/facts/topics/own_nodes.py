@@ -1,4 +1,4 @@
-"""The messages that the nodes in the packages of a workspace publish, according to their code in Python or C++.
+"""The messages that the nodes in the packages of a workspace publish and read, by their code in Python or C++.
 
 The calls are those of rclpy, rospy, rclcpp and roscpp.
 """
@@ -21,7 +21,9 @@ _OTHER_PUBLISHERS = (
 )
 """Matches code that publishes in another way, or on topics that it computes."""
 
-_IN_CPP = r"\b(?:create_publisher|advertise)\b\s{0,80}(?:<([\w:\s]{1,200})>\s{0,80}\(\s{0,80}(?:\"([\w/~]+)\")?)?"
+_IN_CPP = r"\b(?:{})\b\s{{0,80}}(?:<([\w:\s]{{1,200}})>\s{{0,80}}\(\s{{0,80}}(?:\"([\w/~]+)\")?)?"
+_PUBLISHERS = ("create_publisher", "create_lifecycle_publisher", "Publisher", "advertise")
+_SUBSCRIBERS = ("create_subscription", "Subscriber", "subscribe")
 _SENSOR_MESSAGES = (
     *("LaserScan", "PointCloud2", "PointCloud", "Odometry", "Imu", "Image", "Range", "NavSatFix"),
     *("PoseWithCovarianceStamped", "TwistWithCovarianceStamped"),
@@ -43,7 +45,8 @@ def own_publications(model: Model, package: str) -> list[tuple[str, str]] | None
         is_read |= re.search(_CLIENTS, text) is not None
         if re.search(_OTHER_PUBLISHERS, text):
             return None
-        for kind, topic in _in_python(text) if path.name.endswith(".py") else _in_cpp(text):
+        pairs = _in_python(text, _PUBLISHERS) if path.name.endswith(".py") else _in_cpp(text, _PUBLISHERS)
+        for kind, topic in pairs:
             if kind is None or (topic is None and kind in _SENSOR_MESSAGES):
                 return None
             if topic is not None and kind in _SENSOR_MESSAGES:
@@ -51,8 +54,24 @@ def own_publications(model: Model, package: str) -> list[tuple[str, str]] | None
     return found if is_read else None
 
 
-def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
-    """Yield type and topic of each publisher; None for computed ones, and a type None for a syntax error."""
+def own_subscriptions(model: Model, package: str) -> dict[str, str]:
+    """Return topic → type without package of the sensor messages and odometry that the code of a package reads.
+
+    Topics with computed names or types are missing.
+    """
+    folder = neighbours(model.package).get(package) if model.package is not None else None
+    if folder is None:
+        return {}
+    found: dict[str, str] = {}
+    model.expanded.packages.watch(folder)
+    for path, text in code_texts(folder, (".py", *_CPP), LAUNCH):
+        pairs = _in_python(text, _SUBSCRIBERS) if path.name.endswith(".py") else _in_cpp(text, _SUBSCRIBERS)
+        found |= {topic.strip("/"): kind for kind, topic in pairs if topic and kind in _SENSOR_MESSAGES}
+    return found
+
+
+def _in_python(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | None, str | None]]:
+    """Yield type and topic of each call of functions; None for computed ones, and a type None for a syntax error."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -67,10 +86,12 @@ def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
     }
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
         words = {word.arg: word.value for word in call.keywords}
-        if name_of(call.func) in ("create_publisher", "create_lifecycle_publisher"):
+        if name_of(call.func) not in functions:
+            continue
+        if name_of(call.func).startswith("create_"):
             values = [*call.args, words.get("msg_type"), words.get("topic")][:2]
             kind, topic = (words.get("msg_type", values[0]), words.get("topic", values[1]))
-        elif ast.unparse(call.func) in ("rospy.Publisher", "Publisher"):
+        elif ast.unparse(call.func).removeprefix("rospy.") in functions:
             values = [*call.args, None, None][:2]
             topic, kind = words.get("name", values[0]), words.get("data_class", values[1])
         else:
@@ -81,10 +102,10 @@ def _in_python(text: str) -> Iterator[tuple[str | None, str | None]]:
         yield name, written if isinstance(written, str) else None
 
 
-def _in_cpp(text: str) -> Iterator[tuple[str | None, str | None]]:
-    """Yield type and topic of each publisher; None for computed ones."""
+def _in_cpp(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | None, str | None]]:
+    """Yield type and topic of each call of functions; None for computed ones."""
     used = {at[1] for at in re.finditer(r"\busing\s{1,9}[\w:]{1,200}?::(\w{1,80})\s{0,9};", text)}
-    for at in re.finditer(_IN_CPP, text):
+    for at in re.finditer(_IN_CPP.format("|".join(functions)), text):
         kind = (at[1] or "").strip()
         name = kind.rpartition("::")[2]
         is_message = "::" in kind or name in used

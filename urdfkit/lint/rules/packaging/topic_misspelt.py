@@ -14,6 +14,9 @@ class TopicMisspelt(RobotRule):
     code and their RViz files. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the robot publishes
     ``scan`` and nothing else names the topic.
 
+    If the publishers of all nodes are known, also reports remapped inputs of nodes in the packages, and the topic
+    ``gps/fix`` of ``navsat_transform_node``, without a publisher although the robot publishes messages of that type.
+
     ## Why is this bad?
     The node waits for messages that never arrive, without an error.
 
