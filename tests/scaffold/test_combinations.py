@@ -146,6 +146,7 @@ def test_lints_clean_loads_is_seen_and_moves(robot_template, tmp_path, arm_joint
         assert off <= 0.01 * way
         if row["drive"] == "skid":
             assert errors(robot, 0.0, 0.5)[1] < 0.01
+            assert max(errors(robot, 0.4, 0.3)[:2]) < 0.02  # The load on its four wheels stays even.
     if row["arm"] != "none":
         targets = dict(zip(arm_joints[row["arm"]], itertools.cycle(ARM_TARGETS), strict=False))
         tell(simulator, row["ros"], targets, 1)

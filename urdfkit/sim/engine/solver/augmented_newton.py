@@ -54,6 +54,8 @@ RETURN = 0.1
 """Velocity [rad/s or m/s] of a joint beyond its limit from which on it is always made to return."""
 MEMORY = 1.0 - 1e-6
 """How much of the last step's impulses is started from: a load that nothing determines slowly becomes even."""
+EVEN, MOVES = 0.99, 1e-3
+"""The same for a robot that moves faster than the second value [m/s or rad/s], whose friction depends on that load."""
 FEW_ROWS, FEW_DOFS = 20, 15
 """Rows, and dofs, up to which `active_set_newton.solve` is used instead: it is exact, and quick where it is small."""
 MOST_ROWS, ATTEMPTS = 36, 5
@@ -98,8 +100,14 @@ def begin(w: KernelWorld, tree: int, stride: int, rows: int, joint_rows: int, co
     those of the last step. How `BOUNDED` shares a load that nothing determines is arbitrary: when the jam ends,
     impulses start from nothing.
     """
-    memory = 0.0 if w.attempt[ATTEMPT * tree + LAST_ATTEMPT] == BOUNDED and attempt != BOUNDED else MEMORY
     first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
+    memory = MEMORY
+    if attempt != BOUNDED and w.attempt[ATTEMPT * tree + LAST_ATTEMPT] == BOUNDED:
+        memory = 0.0
+    elif attempt < MOVING:
+        for d in range(first, beyond):
+            if abs(w.v_start[d]) > MOVES:
+                memory = EVEN
     for k in range(rows):
         w.x[k] = memory * w.before[k]
         w.y[k] = w.velocity[k] = 0.0
