@@ -209,7 +209,7 @@ base_controller:
   type: diff_drive_controller/DiffDriveController
   left_wheel: [front_left_joint, rear_left_joint]
   right_wheel: [front_right_joint, rear_right_joint]
-  base_frame_id: base_link
+  base_frame_id: base_footprint
   pose_covariance_diagonal: [0.001, 0.001, 0.001, 0.001, 0.001, 0.03]
   twist_covariance_diagonal: [0.001, 0.001, 0.001, 0.001, 0.001, 0.03]
   wheel_separation: 0.4

@@ -82,25 +82,17 @@ def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
 
 
 def second_parents(model: Model) -> Iterator[tuple[Source, Node, str]]:
-    """Yield the base frames of controllers and filters that publish the transform of a link that has a parent.
+    """Yield the base frames of controllers that publish the transform of a link that has a parent.
 
-    Sources: diff_drive_controller (userdoc.rst), robot_localization (README).
+    Source: diff_drive_controller (userdoc.rst). The filters of robot_localization are compared elsewhere.
     """
     roots = model.robot.roots()
     root = roots[0].name if len(roots) == 1 and not model.is_incomplete else None
     for source in yamls(model) if root is not None and root not in OUTSIDE_FRAMES else ():
-        groups = [(one.group, "base_frame_id", "enable_odom_tf") for one in settings(source) if _MOVING in one.kind]
-        groups += [(node, "base_link_frame", "publish_tf") for node in nodes(source) if _is_local(node)]
-        for group, name, flag in groups:
-            frame, publishes = group.find(name), group.find(flag)
-            link = frame.text.strip("/") if frame is not None else ""
+        for one in settings(source):
+            frame, publishes = one.group.find("base_frame_id"), one.group.find("enable_odom_tf")
+            link = frame.text.strip("/") if frame is not None and _MOVING in one.kind else ""
             is_off = publishes is not None and publishes.text.lower() == "false"
             if frame is not None and link != root and link in model.robot.link_by_name and not is_off:
-                message = f"`{name}` is `{link}`, but the root link is `{root}`: `{link}` has two parents in TF"
+                message = f"`base_frame_id` is `{link}`, but the root link is `{root}`: `{link}` has two parents in TF"
                 yield source, frame, message
-
-
-def _is_local(node: Node) -> bool:
-    """Return whether a node of a YAML file is a filter of robot_localization that moves the robot in its odom frame."""
-    world, odom = node.find("world_frame"), node.find("odom_frame")
-    return world is not None and world.text == (odom.text if odom is not None else "odom")

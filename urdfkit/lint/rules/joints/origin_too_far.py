@@ -2,6 +2,7 @@
 
 from math import dist, inf, sqrt
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.robot import Joint, Pose
 from urdfkit.lint.model.placement import Extent, Frame, offset_of, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -157,13 +158,26 @@ class OriginTooFar(RobotRule):
         origin = joint.element.find("origin")
         if gap < max(_MIN_OPEN, _OPEN * size) or second > _CLOSED * gap or origin is None:
             return
-        rest, part = _sides(joint, model)
-        if any(_distance(a, b) < _MIN_OPEN for a in part for b in rest):
-            return  # Another part of the body, such as a rail, carries it.
+        if _is_carried(joint, model):
+            return
         message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
         message += "all other moving joints are at their parent links"
         help = "check the axes, signs and units of the origin"
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+
+def _is_carried(joint: Joint, model: Model) -> bool:
+    """Return whether the child of a joint is at another part that is fixed to the parent, such as a rail."""
+    attached = AttachedBodies(model.robot)
+    body, child = attached.body_of(joint.parent or ""), model.extents.get(joint.child or "")
+    if child is None or joint.child not in model.frames:
+        return False
+    box = _corners(model.frames[joint.child], child)
+    return any(
+        _distance(box, _corners(model.frames[name], extent)) < _MIN_OPEN
+        for name, extent in model.extents.items()
+        if name != joint.parent and name in model.frames and attached.body_of(name) == body
+    )
 
 
 def _times_its_links(joint: Joint, sizes: dict[str, float]) -> float:
@@ -173,15 +187,6 @@ def _times_its_links(joint: Joint, sizes: dict[str, float]) -> float:
 
 def _gap(joint: Joint, model: Model) -> float:
     """Return the distance between the parts below a joint and the rest of the robot [m]; 0 if either is long."""
-    rest, part = _sides(joint, model)
-    if not rest or not part:
-        return 0.0
-    gap = min(_distance(a, b) for a in part for b in rest)
-    return gap if gap > _PART_OF_LENGTH * max(_length(rest), _length(part)) else 0.0
-
-
-def _sides(joint: Joint, model: Model) -> tuple[list[Corners], list[Corners]]:
-    """Return the boxes around the links that are not below a joint, and around those below it."""
     below, pending = {joint.child}, [joint.child]
     children: dict[str | None, list[str | None]] = {}
     for other in model.robot.joints:
@@ -195,7 +200,12 @@ def _sides(joint: Joint, model: Model) -> tuple[list[Corners], list[Corners]]:
     for name, extent in model.extents.items():
         if name in model.frames:
             sides[name in below].append(_corners(model.frames[name], extent))
-    return sides
+    rest, part = sides
+    if not rest or not part:
+        return 0.0
+    gap = min(_distance(a, b) for a in part for b in rest)
+    lengths = [_length(boxes) for boxes in sides]
+    return gap if gap > _PART_OF_LENGTH * max(lengths) else 0.0
 
 
 def _corners(frame: Frame, extent: Extent) -> Corners:
