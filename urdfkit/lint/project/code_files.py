@@ -6,8 +6,18 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.related_files import LAUNCH
+
+CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
+"""Endings of the names of files in C++."""
+
 MAX_BYTES = 500_000
 """Largest size of a file whose text is read."""
+
+
+def node_texts(folder: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the files of a package in Python and C++, except launch files, with their texts; see `code_texts`."""
+    return code_texts(folder, (".py", *CPP), LAUNCH)
 
 
 def code_texts(folder: Path, endings: tuple[str, ...], without: tuple[str, ...] = ()) -> Iterator[tuple[Path, str]]:

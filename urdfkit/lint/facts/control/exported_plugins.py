@@ -5,9 +5,9 @@ from itertools import islice
 from pathlib import Path
 
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import MAX_BYTES, code_texts
+from urdfkit.lint.project.code_files import CPP, MAX_BYTES, code_texts
 
-_SUFFIXES = (".cpp", ".cc", ".cxx", ".hpp", ".h", ".xml")
+_SUFFIXES = (*CPP, ".xml")
 _MAX_FILES = 400
 
 

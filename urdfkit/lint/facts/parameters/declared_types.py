@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.launch.python_constants import name_of
-from urdfkit.description.packages.related_files import LAUNCH, neighbours
+from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, yamls
@@ -20,9 +20,8 @@ from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.parameters.node_parameters import kind_of, parameters
 from urdfkit.lint.facts.parameters.schemas import schemas
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import code_texts
+from urdfkit.lint.project.code_files import node_texts
 
-_CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
 _OPEN = r"dynamic_typing|allow_undeclared_parameters|automatically_declare_parameters_from_overrides"
 """Matches code that accepts parameters of other types."""
 
@@ -74,7 +73,7 @@ def _declared(model: Model, names: set[str]) -> dict[str, dict[str, str]]:
     found: dict[str, dict[str, str]] = {}
     for package, folder in neighbours(model.package).items():
         model.expanded.packages.watch(folder)
-        for path, text in code_texts(folder, (".py", *_CPP), LAUNCH):
+        for path, text in node_texts(folder):
             if "declare_parameter" not in text or re.search(_OPEN, text):
                 continue
             own = {name for name in re.findall(_NAMED, text) if name in names}

@@ -8,14 +8,16 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 from urdfkit.description.launch.python_constants import name_of
-from urdfkit.description.packages.related_files import LAUNCH, neighbours
+from urdfkit.description.packages.related_files import neighbours
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import code_texts
+from urdfkit.lint.project.code_files import node_texts
 
-_CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
-_CLIENTS = r"\brclpy\b|\brospy\b|\brclcpp\b|\bros/ros\.h\b"
+CLIENTS = r"\brclpy\b|\brospy\b|\brclcpp\b|\bros/ros\.h\b"
+"""Matches code that uses a client library of ROS."""
+
 _OTHER_PUBLISHERS = (
     r"image_transport|point_cloud_transport|camera_info_manager|generic_publisher|AdvertiseOptions|rosbag|topic_tools"
 )
@@ -30,19 +32,26 @@ _SENSOR_MESSAGES = (
 )
 
 
+def own_folder(model: Model, package: str) -> Path | None:
+    """Return the folder of a package of the workspace, which is then watched; None if it is not in the workspace."""
+    folder = neighbours(model.package).get(package) if model.package is not None else None
+    if folder is not None:
+        model.expanded.packages.watch(folder)
+    return folder
+
+
 def own_publications(model: Model, package: str) -> list[tuple[str, str]] | None:
     """Return topic and type without package of the sensor messages and odometry that a package publishes.
 
     None if the package is not in the workspace, or if its code may publish other topics of these types.
     """
-    folder = neighbours(model.package).get(package) if model.package is not None else None
+    folder = own_folder(model, package)
     if folder is None:
         return None
     found: list[tuple[str, str]] = []
     is_read = False
-    model.expanded.packages.watch(folder)
-    for path, text in code_texts(folder, (".py", *_CPP), LAUNCH):
-        is_read |= re.search(_CLIENTS, text) is not None
+    for path, text in node_texts(folder):
+        is_read |= re.search(CLIENTS, text) is not None
         if re.search(_OTHER_PUBLISHERS, text):
             return None
         pairs = _in_python(text, _PUBLISHERS) if path.name.endswith(".py") else _in_cpp(text, _PUBLISHERS)
@@ -59,12 +68,11 @@ def own_subscriptions(model: Model, package: str) -> dict[str, str]:
 
     Topics with computed names or types are missing.
     """
-    folder = neighbours(model.package).get(package) if model.package is not None else None
+    folder = own_folder(model, package)
     if folder is None:
         return {}
     found: dict[str, str] = {}
-    model.expanded.packages.watch(folder)
-    for path, text in code_texts(folder, (".py", *_CPP), LAUNCH):
+    for path, text in node_texts(folder):
         pairs = _in_python(text, _SUBSCRIBERS) if path.name.endswith(".py") else _in_cpp(text, _SUBSCRIBERS)
         found |= {topic.strip("/"): kind for kind, topic in pairs if topic and kind in _SENSOR_MESSAGES}
     return found

@@ -12,19 +12,17 @@ from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import name_of
-from urdfkit.description.packages.related_files import LAUNCH, neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.topics.own_nodes import CLIENTS, own_folder
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import code_texts
+from urdfkit.lint.project.code_files import node_texts
 
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events", "diagnostics", "robot_description")
 """Topics that libraries read and publish in nodes that do not name them."""
 
-_CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
-_CLIENTS = r"\brclpy\b|\brospy\b|\brclcpp\b|\bros/ros\.h\b"
 _PLACES = {
     **dict.fromkeys(("create_publisher", "create_lifecycle_publisher", "create_subscription"), (1, "topic")),
     **dict.fromkeys(("create_service", "create_client"), (1, "srv_name")),
@@ -99,13 +97,12 @@ def _names(model: Model, package: str) -> frozenset[str] | None:
 
     None if the package is not in the workspace, or if its code may have other names.
     """
-    folder = neighbours(model.package).get(package) if model.package is not None else None
+    folder = own_folder(model, package)
     if folder is None:
         return None
-    model.expanded.packages.watch(folder)
     found = set[str]()
-    for path, text in code_texts(folder, (".py", *_CPP), LAUNCH):
-        if not re.search(_CLIENTS, text):
+    for path, text in node_texts(folder):
+        if not re.search(CLIENTS, text):
             continue
         names = list(_in_python(text) if path.name.endswith(".py") else _in_cpp(text))
         if None in names or re.search(_MODULES, text):

@@ -10,7 +10,7 @@ class JointOffItsParent(RobotRule):
     Compares the places of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the boxes
     around the shapes of their parent links. Joints that steer wheels are not compared. If at least four joints are
     exactly on the surface and one is not, this one is reported: it is at a distance from the shape, or so deep inside
-    that its child link is in the parent link.
+    that its child link is in the parent link. The stage of a telescope, below a prismatic joint, may be inside.
 
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames below are in the wrong place. Usually the length
