@@ -83,3 +83,12 @@ def test_no_rule_fails_by_numbers():
         for share in (0.1, 1.0):
             numbers = NUMBER.sub(lambda n, s=share: random_.choice(VALUES) if random_.random() < s else n[0], text)
             found(path, numbers)
+
+
+@pytest.mark.parametrize("angle", ["inf", "nan", "1e308"])
+def test_a_lidar_with_an_infinite_view_is_examined(write, angle):
+    scan = f"<scan><horizontal><min_angle>-{angle}</min_angle><max_angle>{angle}</max_angle></horizontal></scan>"
+    sensor = f'<gazebo reference="b"><sensor name="lidar" type="ray"><ray>{scan}</ray></sensor></gazebo>'
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="1.1 0 0"/></joint>'
+    path = write("r.urdf", f'{link()}<link name="b"/>{joint}{sensor}')
+    assert "Z823" in {code for code, _ in found(path)}

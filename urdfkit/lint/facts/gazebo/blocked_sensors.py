@@ -125,7 +125,7 @@ def _fan(sensor: Element) -> list[tuple[float, float]]:
     horizontal = next((each for each in sensor.walk() if each.tag == "horizontal"), None)
     limits = [horizontal.find(tag) if horizontal is not None else None for tag in ("min_angle", "max_angle")]
     low, high = ((number(each.text or "") if each is not None else None) for each in limits)
-    first, last = (-pi, pi) if low is None or high is None else (low, high)
+    first, last = (low, high) if low is not None and high is not None and isfinite(high - low) else (-pi, pi)
     return [(first + (last - first) * step / (_RAYS - 1), 0.0) for step in range(_RAYS)]
 
 
