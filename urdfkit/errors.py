@@ -74,13 +74,24 @@ class ResourceError(UrdfkitError):
         kind: ``name`` for an empty one, ``package`` or ``file`` for a missing one, ``format`` for an unsupported format
             of a file, otherwise empty.
         near: for a missing file, the similar name of a file or folder that the message suggests.
+        package: name of a missing package.
     """
 
     def __init__(
-        self, message: str, *, position: Position | None = None, kind: str = "", near: str | None = None
+        self,
+        message: str,
+        *,
+        position: Position | None = None,
+        kind: str = "",
+        near: str | None = None,
+        package: str = "",
     ) -> None:
         super().__init__(message, position=position)
-        self.kind, self.near = kind, near
+        self.kind, self.near, self.package = kind, near, package
+
+    def at(self, position: Position | None) -> ResourceError:
+        """Return the error with a position."""
+        return ResourceError(self.message, position=position, kind=self.kind, near=self.near, package=self.package)
 
 
 class DescriptionError(UrdfkitError):

@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.cli.sim.warnings import grouped
+from urdfkit.cli.sim.warnings import GroupedWarnings, grouped
 from urdfkit.description.urdf.repair_record import ALL_PLACES
+from urdfkit.notice import Notice
+from urdfkit.position import Position
 
 INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 MESH = '<geometry><mesh filename="package://missing_meshes/{}.stl"/></geometry>'
@@ -34,15 +36,33 @@ def test_a_missing_package_is_one_warning(
     assert "r.urdf:4:" in lines[0]
 
 
-def test_warnings_that_differ_in_names_only_share_a_line() -> None:
-    alike = [f"r.urdf:{n}:1: mesh part{n}.dae is a Git LFS pointer; shape `s{n}` is ignored" for n in range(1, 8)]
-    others = ["r.urdf:9:1: unknown plugin `a`", "r.urdf:10:1: unknown plugin `b`", "no plugin", "note: slip of 1e-5"]
-    found = grouped([others[0], *alike, *others[1:]])
-    assert found == [
-        *others[:2],
+def test_warnings_of_one_cause_share_a_line() -> None:
+    places = [Position("r.urdf", n, 1) for n in range(1, 8)]
+    alike = [Notice(f"{at}: mesh part{at.line}.dae is broken", position=at, cause="mesh") for at in places]
+    few = [Notice(f"unknown plugin `{name}`", cause="plugin") for name in "ab"]
+    gone = [Notice(f"{name}: no package `p`", cause=name, package="p") for name in "cd"]
+    plain = [Notice("no plugin"), Notice("slip of 1e-5", "note"), Notice("slip of 2e-5")]
+    assert grouped([few[0], *alike, few[1], *gone, *plain]) == [
+        *few,
         f"{alike[0]} (6 more with this cause: r.urdf:2:1, r.urdf:3:1, r.urdf:4:1, …; {ALL_PLACES})",
-        *others[2:],
+        f"{gone[0]} (1 more with this cause; {ALL_PLACES})",
+        *plain,
     ]
+
+
+@pytest.mark.parametrize(
+    ("notice", "line"),
+    [
+        ("plain", "urdfkit: warning: plain"),
+        (Notice("a hint", "note"), "urdfkit: note: a hint"),
+        (Notice("compiling …", "progress"), "compiling …"),
+    ],
+)
+def test_a_line_begins_with_its_severity(notice: str, line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for quiet in (False, True):
+        with GroupedWarnings(quiet=quiet) as warnings:
+            warnings(notice)
+    assert capsys.readouterr().err.splitlines() == [line] * (1 if isinstance(notice, Notice) else 2)
 
 
 @pytest.mark.parametrize("quiet", [False, True])
@@ -61,5 +81,5 @@ def test_a_part_that_is_not_simulated_names_the_target_of_lint(
 
 
 def test_fewer_warnings_are_separate_lines() -> None:
-    texts = [f"r.urdf:{n}:1: unknown plugin `p{n}`" for n in range(3)]
+    texts = [Notice(f"unknown plugin `p{n}`", cause="plugin") for n in range(3)]
     assert grouped(texts) == texts

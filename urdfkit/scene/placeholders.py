@@ -47,10 +47,7 @@ def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
         robot: the robot.
         scene: its scene, with the missing meshes in `Scene.problems`.
     """
-    repairs = [
-        Repair("mesh", each.code, with_effect(each.error.message, _EFFECT), each.error.position, each.body)
-        for each in scene.problems
-    ]
+    repairs = [each.repair(_EFFECT) for each in scene.problems]
     repairs += textures(scene)
     problems = shape_problems(robot)
     wanted = dict.fromkeys((each.body, each.role) for each in scene.problems)

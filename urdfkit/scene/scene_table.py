@@ -9,9 +9,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from urdfkit.defect_message import with_effect
 from urdfkit.description.packages.existence import is_absolute
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.parser import EMPTY_NAME
+from urdfkit.description.urdf.repair_record import Repair, Severity
 from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
@@ -100,6 +102,11 @@ class MissingMesh:
         if self.is_absolute and self.error.kind == "file":
             return "G603"
         return _CODES.get(self.error.kind, "G607")
+
+    def repair(self, effect: str, severity: Severity = "warning") -> Repair:
+        """Return the repair of a robot without the shape, with the consequence."""
+        message, at, package = with_effect(self.error.message, effect), self.error.position, self.error.package
+        return Repair("mesh", self.code, message, at, self.body, severity=severity, package=package)
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,7 +276,7 @@ def _load(
     try:
         return meshes.load(_resolve(robot, geometry.uri, _mesh_position(item)), geometry.scale, places=places)
     except ResourceError as error:
-        raise ResourceError(error.message, position=_mesh_position(item), kind=error.kind) from error
+        raise error.at(_mesh_position(item)) from error
 
 
 def _mesh_position(item: Visual | Collision) -> Position:

@@ -12,6 +12,7 @@ from urdfkit.description.sdf import World
 from urdfkit.description.urdf.geometry import compose
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
+from urdfkit.notice import Notice
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placeholders import textures
@@ -181,7 +182,7 @@ class View:
     def table(self, role: Role, layout: Layout) -> RayTable:
         """Return the table for rays against the visuals or the collisions, at their poses in a layout."""
         if role not in self._tables:
-            warmup(lambda count: None if count else self._note(announcement()))
+            warmup(lambda count: None if count else self._note(Notice(announcement(), "progress")))
             self._tables[role] = RayTable(self.scene, self.scene.with_role(role))
         table = self._tables[role]
         table.place(self.poses(layout))

@@ -7,6 +7,7 @@ import sys
 
 from urdfkit.cli.robot_arguments.robot_loading import add_strict
 from urdfkit.cli.sim import option_values
+from urdfkit.notice import Notice
 
 
 def add_repair_options(parser: argparse.ArgumentParser) -> None:
@@ -23,6 +24,5 @@ def add_repair_options(parser: argparse.ArgumentParser) -> None:
 
 def print_warning(text: str) -> None:
     """Print a warning of a simulation, a note (`Repairs.add`) or the line before a compilation on standard error."""
-    if not text.startswith("compiling "):
-        text = f"urdfkit: {text}" if text.startswith("note: ") else f"urdfkit: warning: {text}"
-    print(text, file=sys.stderr, flush=True)
+    before = {"warning": "urdfkit: warning: ", "note": "urdfkit: ", "progress": ""}[Notice.of(text).severity]
+    print(f"{before}{text}", file=sys.stderr, flush=True)

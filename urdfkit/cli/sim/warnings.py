@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 
 from urdfkit.cli.sim.repair_options import print_warning
 from urdfkit.description.urdf.repair_record import ALL_PLACES, Repair
+from urdfkit.notice import Notice
 
 SMALLEST = 4
 """Number of alike warnings from which on they share a line; warnings about one missing package always do."""
 _SHOWN = 3
 """Largest number of other places in a line."""
 
-_PLACE = re.compile(r"^(note: )?(\S+:\d+:\d+): ")
-_PACKAGE = re.compile(r"no package `[^`]*`")
-_NAMES = re.compile(r"`[^`]*`|mesh \S+|<[^>]*>|-?\d[\d.e+-]*")
-
 
 class GroupedWarnings:
     """Prints warnings; inside of a ``with`` block only at its end, those with one cause in one line.
 
-    Warnings about one package have one cause, and warnings that differ in names and numbers only.
+    Warnings have one cause if they are about one missing package, or have the same `Notice.cause`.
 
     Args:
         quiet: print warnings only, no notes and no progress.
@@ -29,16 +25,17 @@ class GroupedWarnings:
 
     def __init__(self, *, quiet: bool = False) -> None:
         self._is_quiet = quiet
-        self._waiting: list[str] | None = None
+        self._waiting: list[Notice] | None = None
 
     def __call__(self, text: str) -> None:
         """Print a warning, or keep it until the end of the block."""
-        if self._is_quiet and text.startswith(("compiling ", "note: ")):
+        notice = Notice.of(text)
+        if self._is_quiet and notice.severity != "warning":
             return
-        if self._waiting is None or text.startswith("compiling "):
-            print_warning(text)
+        if self._waiting is None or notice.severity == "progress":
+            print_warning(notice)
         else:
-            self._waiting.append(text)
+            self._waiting.append(notice)
 
     def __enter__(self) -> GroupedWarnings:
         self._waiting = []
@@ -53,22 +50,21 @@ class GroupedWarnings:
 def note_lint_target(repairs: Iterable[Repair], *, quiet: bool) -> None:
     """Print how to find the parts that are not simulated without a simulation: other targets simulate them."""
     if not quiet and any(repair.code == "Z833" for repair in repairs):
-        print_warning("note: `urdfkit lint --target urdfkit` reports the parts of a robot that are not simulated")
+        text = "`urdfkit lint --target urdfkit` reports the parts of a robot that are not simulated"
+        print_warning(Notice(text, "note"))
 
 
-def grouped(texts: list[str]) -> list[str]:
+def grouped(notices: Iterable[Notice]) -> list[str]:
     """Return warnings with those of one cause in one line, in the order of the first of each cause."""
-    groups: dict[str, list[str]] = {}
-    for text in texts:
-        package = _PACKAGE.search(text)
-        groups.setdefault(_NAMES.sub("…", _PLACE.sub("", text)) if package is None else package[0], []).append(text)
-    found = []
-    for cause, group in groups.items():
-        if len(group) < (2 if _PACKAGE.fullmatch(cause) else SMALLEST):
+    groups: dict[Hashable, list[Notice]] = {}
+    for notice in notices:
+        groups.setdefault(notice.package or notice.cause or notice, []).append(notice)
+    found: list[str] = []
+    for group in groups.values():
+        if len(group) < (2 if group[0].package else SMALLEST):
             found += group
             continue
-        matches = [_PLACE.match(text) for text in group[1:]]
-        places = list(dict.fromkeys(match[2] for match in matches if match is not None))
+        places = list(dict.fromkeys(str(each.position) for each in group[1:] if each.position is not None))
         shown = f": {', '.join(places[:_SHOWN])}{', …' if len(places) > _SHOWN else ''}" if places else ""
         found.append(f"{group[0]} ({len(group) - 1} more with this cause{shown}; {ALL_PLACES})")
     return found

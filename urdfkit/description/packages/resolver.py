@@ -130,7 +130,7 @@ class Packages:
                 advice = "" if hint else "; add folders with --package-path"
                 message = f"no package `{shown}` (searched: {self._package_search.places_searched()}{advice})" + hint
                 self.answers[("find", name)] = f"!{message}"
-                raise ResourceError(message, kind="package")
+                raise ResourceError(message, kind="package", package=name)
             self._found[name] = found
             self.answers[("find", name)] = str(found)
         return self._found[name]

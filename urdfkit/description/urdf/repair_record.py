@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from urdfkit.defect_message import DefectMessage, pattern_of
+from urdfkit.defect_message import DefectMessage
 from urdfkit.errors import one_line
 from urdfkit.position import Position
 from urdfkit.record import record
@@ -41,6 +41,7 @@ class Repair:
         joint: name of the joint that moves the link, or of the repaired joint; None if unknown.
         severity: ``note`` for changes within rounding errors of the source, else ``warning``.
         attribute: attribute that has the defect; None if it depends on the code.
+        package: name of the missing package that causes the defect; empty without one.
     """
 
     kind: RepairKind
@@ -51,6 +52,12 @@ class Repair:
     joint: str | None = None
     severity: Severity = "warning"
     attribute: str | None = None
+    package: str = ""
+
+    @property
+    def cause(self) -> tuple[str | None, ...]:
+        """Equal for repairs of one kind: of the same parameter, code and severity."""
+        return self.code, self.severity, self.kind, self.attribute, self.package
 
     def __str__(self) -> str:
         """Return the message with its position."""
@@ -77,12 +84,11 @@ def grouped(repairs: Iterable[Repair]) -> list[Repair]:
 
     The line names the command that lists all places.
 
-    Repairs are of one kind if they have the same code and severity, and messages that differ in names and numbers only.
+    Repairs are of one kind if they have the same `Repair.cause`.
     """
-    groups: dict[tuple[str | None, str, str], list[Repair]] = {}
+    groups: dict[tuple[str | None, ...], list[Repair]] = {}
     for repair in dict.fromkeys(repairs):
-        pattern = pattern_of(DefectMessage.of(repair.message).stem)
-        groups.setdefault((repair.code, repair.severity, pattern), []).append(repair)
+        groups.setdefault(repair.cause, []).append(repair)
     found: list[Repair] = []
     for group in groups.values():
         if len(group) < (SMALLEST_GROUP if group[0].severity == "warning" else 2):

@@ -104,7 +104,7 @@ def _shapes(robot: Robot, link: Link, loader: MeshLoader, note: Callable[[str], 
             mesh = next((each for each in collision.element.walk() if each.tag == "mesh"), collision.element)
             position = mesh.origin.position
             if note is None:
-                raise ResourceError(error.message, position=position, kind=error.kind) from error
+                raise error.at(position) from error
             note(f"{position}: link `{link.name}`: a collision shape is ignored: {error.message}")
             continue
         if shape is not None:

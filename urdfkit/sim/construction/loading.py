@@ -13,6 +13,7 @@ from urdfkit.description.urdf.massless_links import massless
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul
+from urdfkit.notice import Notice
 from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.construction.validation import require_valid
 from urdfkit.sim.state.arguments import vector
@@ -84,7 +85,9 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
         return
     if is_regular(kinematics, q):
         for link, _ in found:
-            note(f"{link.element.origin.position}: link `{link.name}` has no mass; it moves with its child links")
+            at = link.element.origin.position
+            text = f"{at}: link `{link.name}` has no mass; it moves with its child links"
+            note(Notice(text, position=at, cause="no mass"))
         return
     # Report the last link of a chain without mass, because the others carry it.
     link, joint = found[-1]

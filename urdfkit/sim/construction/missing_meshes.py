@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from urdfkit.defect_message import with_effect
 from urdfkit.description.sdf import WorldLink, WorldModel, WorldShape
-from urdfkit.description.urdf.repair_record import Repair, Severity
+from urdfkit.description.urdf.repair_record import Severity
 from urdfkit.description.urdf.robot import Mesh, Robot
 from urdfkit.errors import ResourceError, SimulationError
+from urdfkit.notice import Notice
 from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.construction.repairs.collector import Repairs
 
@@ -36,8 +36,7 @@ def report_omitted_shapes(robot: Robot, scene: Scene, repairs: Repairs) -> None:
     for each in scene.problems:
         if each.role == "collision":
             raise each.error
-        message = with_effect(each.error.message, f"shape `{each.name}` is ignored: it is invisible")
-        found.append(Repair("mesh", each.code, message, each.error.position, each.body, severity=severity))
+        found.append(each.repair(f"shape `{each.name}` is ignored: it is invisible", severity))
     repairs.add(*found)
 
 
@@ -77,9 +76,11 @@ def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None])
         try:
             meshes.load(Path(shape.file), shape.geometry.scale)
         except ResourceError as error:
+            at, package = shape.position, error.package
             omitted = f"{error}; collision `{shape.name}` is ignored: it has no contacts"
             message = f"visual `{shape.name}` is invisible: {error}" if visual else omitted
-            note(f"{shape.position or model.name}: {message}")
+            text = f"{at or model.name}: {message}"
+            note(Notice(text, position=at, cause=("mesh", visual), package=package))
             return False
         return True
 

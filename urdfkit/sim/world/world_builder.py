@@ -8,6 +8,7 @@ from urdfkit.description.sdf import World, WorldModel, WorldRobot, add_model, re
 from urdfkit.description.urdf.geometry import IDENTITY
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import SimulationError, UnknownNameError
+from urdfkit.notice import Notice
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.missing_meshes import without_broken
 from urdfkit.sim.construction.rigid_bodies import bodies_of_model, require_no_joints
@@ -213,7 +214,7 @@ class WorldBuilder:
                 bodies += bodies_of_model(entity.source, self._factory.meshes, is_ground=is_ground)
         first = robots[0]
         together = bool(bodies or robots[1:] or first.self_collide)
-        about = announcement(world=together)
+        about = Notice(announcement(world=together), "progress")
         warmup(lambda count: None if count else self._note(about), world=together)
         engine = Engine(
             first.kinematics,

@@ -162,7 +162,7 @@ def read_include(context: Context, element: Element) -> ReadEntity | None:
     root = inner.open()
     found = _first(inner, root)
     if found is None:
-        context.note(element, f"{uri.text} is an actor, which is not simulated")
+        context.note(element, f"{uri.text} is an actor, which is not simulated", "actor")
         return None
     found.entity = replace(found.entity, position=element.origin.position)
     if called:

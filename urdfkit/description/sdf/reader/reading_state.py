@@ -11,6 +11,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.notice import Notice
 
 OLDEST, NEWEST = (1, 4), (1, 11)
 """The supported versions of SDF."""
@@ -73,9 +74,10 @@ class Context:
             raise wrong(at, f"{shown_path(path)} includes itself")
         return inner
 
-    def note(self, element: Element, text: str) -> None:
-        """Add a note about an element, once."""
-        line = f"{element.origin.position}: {text}"
+    def note(self, element: Element, text: str, cause: str | None = None, package: str = "") -> None:
+        """Add a note about an element, once; see `Notice` for its cause and package."""
+        at = element.origin.position
+        line = Notice(f"{at}: {text}", position=at, cause=cause, package=package)
         if line not in self.notes:
             self.notes.append(line)
 

@@ -156,7 +156,7 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
     if element.find("submesh") is not None:
         if shape.tag == "collision":
             raise wrong(element, "<submesh> of a collision is not read; save the part as a separate mesh")
-        context.note(element, "<submesh> is not read: the whole mesh is shown")
+        context.note(element, "<submesh> is not read: the whole mesh is shown", "submesh")
     scale = vector(element, "scale", (1.0, 1.0, 1.0))
     if 0 in scale:
         raise wrong(element, "<scale> of <mesh> is zero")
@@ -165,9 +165,10 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
     except ResourceError as error:
         if shape.tag == "collision":
             what = f"{error.message}; collision `{shape.get('name')}` is ignored: it has no contacts"
-            context.note(uri, what)
+            context.note(uri, what, "collision", error.package)
             return Mesh(uri.text, scale), ""
-        context.note(uri, f"visual `{shape.get('name')}` is not shown: {error.message}")
+        what = f"visual `{shape.get('name')}` is not shown: {error.message}"
+        context.note(uri, what, "visual", error.package)
         return None
     written = uri.text if "://" in uri.text else f"file://{file}"
     return Mesh(written, scale), str(file)
@@ -228,7 +229,7 @@ def _material(context: Context, visual: Element) -> tuple[Rgba | None, str, tupl
         place, name, meant = strange
         hint = Suggestion(meant)
         then = "; the visual keeps its plain colour" if rgba is None else ""
-        context.note(place, f"no material `{name}`{then}" + hint)
+        context.note(place, f"no material `{name}`{then}" + hint, "material")
     plain = ambient in (None, rgba) and all(
         child.tag in ("ambient", "diffuse") or (child.tag == "script" and _is_gazebos(child))
         for child in element.children

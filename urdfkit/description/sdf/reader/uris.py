@@ -36,7 +36,7 @@ def find_file(context: Context, uri: Element) -> Path:
     try:
         return context.packages.resolve(uri.text, context.path)
     except ResourceError as error:
-        raise ResourceError(error.message, position=uri.origin.position, kind=error.kind) from None
+        raise error.at(uri.origin.position) from None
 
 
 def find_model(context: Context, uri: Element) -> Path:
@@ -64,7 +64,7 @@ def find_model(context: Context, uri: Element) -> Path:
     if name and not inside.strip("/") and (found := replacement_of(name)) is not None:
         if found[0] != name or name in ALIKE:
             which = "model" if found[0] == name else f"model `{found[0]}`"
-            context.note(uri, f"{text}: the bundled {which} is used instead")
+            context.note(uri, f"{text}: the bundled {which} is used instead", "bundled")
         return found[1]
     if name:
         hint = did_you_mean(name, model_names())

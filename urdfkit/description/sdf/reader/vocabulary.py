@@ -38,4 +38,4 @@ def note_unknown_elements(context: Context, element: Element) -> None:
         if child.tag not in allowed and ":" not in child.tag:
             near = nearest(child.tag, allowed)
             hint = Suggestion(near and f"<{near}>", f"<{child.tag}>")
-            context.note(child, f"unknown element <{child.tag}> in <{element.tag}> is ignored" + hint)
+            context.note(child, f"unknown element <{child.tag}> in <{element.tag}> is ignored" + hint, "element")

@@ -58,9 +58,8 @@ def note_unknown_plugins(context: Context, world: World) -> tuple[Position, ...]
         found.append(plugin.element.origin.position)
         near = nearest(name, NEEDLESS)
         hint = Suggestion(near)
-        context.note(
-            plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is ignored" + hint
-        )
+        text = f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is ignored" + hint
+        context.note(plugin.element, text, "plugin")
     return tuple(found)
 
 

@@ -9,6 +9,7 @@ from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.repair_record import Repair, RepairKind, grouped
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.notice import Notice
 
 DENSITY = 1000.0
 """Default density of links without mass [kg/m³]: water."""
@@ -54,7 +55,8 @@ class Repairs:
         self._recorded.update(new)
         self.found += new
         for repair in grouped(new):
-            self._note(str(repair) if repair.severity == "warning" else f"note: {repair}")
+            at, cause, package = repair.position, repair.cause, repair.package
+            self._note(Notice(str(repair), repair.severity, position=at, cause=cause, package=package))
 
     def leave_out(
         self,

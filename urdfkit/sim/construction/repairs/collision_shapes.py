@@ -69,25 +69,24 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
     replaced: dict[str, list[Shape]] = {}
     repairs = []
     for problem in missing:
-        body, fault = problem.body, problem.error.message
+        body = problem.body
         if body not in left and body not in replaced:
             replaced[body] = list(_substitutes(scene, body))
         if problem.code == "G602":
-            packages.setdefault(fault, []).append(body)
+            packages.setdefault(problem.error.package, []).append(body)
             continue
         if replaced.get(body):
             effect = "the link collides with its visual shapes"
         else:
             effect = f"shape `{problem.name}` is ignored: it has no contacts"
-        repairs.append(Repair("mesh", problem.code, with_effect(fault, effect), problem.error.position, body))
-    for fault, bodies in packages.items():
-        first = next(problem.error for problem in scene.problems if problem.error.message == fault)
+        repairs.append(problem.repair(effect))
+    for package, bodies in packages.items():
+        first = next(problem for problem in scene.problems if problem.error.package == package)
         names = list(dict.fromkeys(bodies))
         shown = ", ".join(f"`{name}`" for name in names[:_SHOWN])
         more = f" and {len(names) - _SHOWN} others" if len(names) > _SHOWN else ""
         effect = f"the collision meshes of {shown}{more} are replaced by their visual shapes, if readable"
-        message = with_effect(fault, effect)
-        repairs.append(Repair("mesh", "G602", message, first.position, names[0]))
+        repairs.append(replace(first.repair(effect), link=names[0]))
     shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
     if not any(shape.role == "collision" for shape in shapes):
         message = with_effect(repairs[-1].message, "no collision shape of the robot is left, so nothing holds it up")

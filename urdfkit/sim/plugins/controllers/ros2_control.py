@@ -17,6 +17,7 @@ from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import ResourceError, SimulationError, similar
+from urdfkit.notice import Notice
 from urdfkit.sim.plugins.controllers.command_output import (
     INTERFACES,
     EffortOutput,
@@ -143,7 +144,9 @@ class Ros2Control(ControlLoopPlugin):
                 setup.repairs.leave_out(error, "the interface is ignored", "hardware", "C710")
                 self.left_out[joint] = f"interface `{kind}`"
             elif joint in setup.kinematics.mimic_names:
-                setup.note(f"{interface.origin.position}: joint `{joint}` mimics another joint and accepts no commands")
+                at = interface.origin.position
+                text = f"{at}: joint `{joint}` mimics another joint and accepts no commands"
+                setup.note(Notice(text, position=at, cause="mimic"))
             elif kind == "effort":
                 found.append(EffortOutput(handle, period))
             elif kind == "velocity":
@@ -187,7 +190,7 @@ def _mock_parameters(setup: Setup, plugin: Plugin) -> Settings:
     robot = setup.kinematics.robot
     files = manager_files(Path(robot.files[0])) if robot.files else ()
     if len(files) == 1:
-        setup.note(f"note: controllers of ros2_control `{plugin.name or ''}`: {shown_path(files[0])}")
+        setup.note(Notice(f"controllers of ros2_control `{plugin.name or ''}`: {shown_path(files[0])}", "note"))
         return read_settings(files[0], separator=".")
     if files:
         names = " or ".join(shown_path(file) for file in files)

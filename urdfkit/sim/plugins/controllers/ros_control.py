@@ -9,6 +9,7 @@ from urdfkit.description.urdf.queries import UNDRIVEN
 from urdfkit.description.urdf.robot import Transmission
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
+from urdfkit.notice import Notice
 from urdfkit.sim.plugins.controllers.command_output import EffortOutput, Output, PositionOutput, VelocityOutput
 from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
 from urdfkit.sim.plugins.controllers.control_loop_plugin import ControlLoopPlugin
@@ -60,7 +61,7 @@ class GazeboRosControl(ControlLoopPlugin):
             defect = f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"
             setup.note(f"{self.plugin.element.origin.position}: {defect}")
         else:
-            setup.note(f"note: controllers of {namespace or '/'}: {found.source}")
+            setup.note(Notice(f"controllers of {namespace or '/'}: {found.source}", "note"))
         if found is not None and found.started is not None:
             for name in found.started:
                 loop.start(name)
