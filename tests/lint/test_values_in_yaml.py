@@ -137,3 +137,16 @@ def test_a_second_node_in_the_code_may_have_the_section(tmp_path):
     (tmp_path / "mover.py").write_text(f"{NODE}\nhelper = Node('arm_moves')\n")
     (tmp_path / "mover.yaml").write_text(MOVER.replace("mover:", "arm_moves:"))
     assert "L117" not in [one.code for one in lint(tmp_path, target="ros2")]
+
+
+@pytest.mark.parametrize("number", [".nan", ".inf", "rad(1.0)", "$(arg speed)"])
+def test_numbers_of_yaml_and_of_launch_files_are_read(tmp_path, number):
+    limits = f"""default_velocity_scaling_factor: {number}
+joint_limits:
+  j1: {{has_velocity_limits: true, max_velocity: {number}}}
+"""
+    (tmp_path / "arm.urdf").write_text(ROBOT)
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "arm.srdf").write_text(SRDF)
+    (tmp_path / "joint_limits.yaml").write_text(limits)
+    assert [one for one in lint(tmp_path, target="ros2") if one.file.endswith("limits.yaml")] == []

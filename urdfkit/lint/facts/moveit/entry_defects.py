@@ -12,7 +12,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of
 from urdfkit.lint.facts.moveit.settings import CONTROLLER_TYPES, MoveitEntry, entries, unwrapped
 
 _MANAGERS = ("moveit_simple_controller_manager", "moveit_ros_control_interface")
@@ -94,10 +94,9 @@ def limit_defects(entry: MoveitEntry, joint: Joint | None) -> Defects:
             limits is None
             or joint is None
             or joint.type not in ("revolute", "prismatic", "continuous")
-            or not node.text
+            or (value := number_of(node)) is None
         ):
             continue
-        value = float(node.text)
         bounds = {"min_position": limits.lower, "max_position": limits.upper, "max_velocity": limits.velocity}
         bound = bounds.get(key.text)
         if bound is None or not bound or (quantity == "position" and joint.type == "continuous"):

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
 from urdfkit.lint.facts.moveit.settings import unwrapped
 
 _PLANNERS = """
@@ -150,8 +150,8 @@ def _scaling_factor(key: Node, value: Node) -> Defects:
     """Yield a factor beyond the range of MoveIt, which limits it to 1 or replaces it."""
     if problem := not_a_number(value):
         yield value, f"`{key.text}` is {problem}"
-    elif value.kind == "text" and value.text and "$" not in value.text and not 0.0 < float(value.text) <= 1.0:
-        yield value, f"`{key.text}` is {float(value.text):g}; it must be greater than 0 and at most 1"
+    elif (factor := number_of(value)) is not None and not 0.0 < factor <= 1.0:
+        yield value, f"`{key.text}` is {factor:g}; it must be greater than 0 and at most 1"
 
 
 def _hint(name: str, names: Iterable[str]) -> str:
