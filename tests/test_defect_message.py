@@ -4,7 +4,7 @@ import pickle
 
 import pytest
 
-from urdfkit.defect_message import DefectMessage, Suggestion, pattern_of, with_effect
+from urdfkit.defect_message import DefectMessage, Suggestion, with_effect
 from urdfkit.errors import did_you_mean
 
 
@@ -47,8 +47,3 @@ def test_a_message_stays_one_in_another_process() -> None:
     message = with_effect("defect" + Suggestion("name", "nmae"), "effect")
     copy = pickle.loads(pickle.dumps(message))
     assert (copy, copy.effect, copy.suggestion.written) == (message, "effect", "nmae")
-
-
-def test_messages_with_one_cause_have_one_pattern() -> None:
-    assert pattern_of("joint `a`: mass 1.5 kg in <link>") == pattern_of("joint `b`: mass -2e-3 kg in <joint>")
-    assert pattern_of("joint `a` has no mass") != pattern_of("joint `a` has no limit")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-_NAMED = r"`[^`]*`|<[^>]*>|(?<=\bfile )\S+|(?<=\bmesh )\S+|-?\d[\d.e+-]*"
-
 
 class Suggestion(str):
     """End of a message, ``; did you mean `x`?``; empty if no name is suggested.
@@ -95,10 +93,3 @@ def with_effect(defect: str, effect: str) -> DefectMessage:
         effect: the consequence, such as ``the controller is ignored``.
     """
     return DefectMessage.of(defect).with_effect(effect)
-
-
-def pattern_of(text: str) -> str:
-    """Return a text without its names, tags and numbers, to compare messages with one cause."""
-    import re
-
-    return re.sub(_NAMED, "…", text)

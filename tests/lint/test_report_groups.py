@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.lint import lint
+from urdfkit.lint.engine.run import run
+from urdfkit.lint.project.entry_files import find_entries
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.report.groups import SMALLEST, SMALLEST_ALIKE, grouped
 
 LINK = '<link name="l{n}"><visual><geometry><mesh filename="{mesh}"/></geometry></visual>{more}</link>'
@@ -64,13 +66,14 @@ def test_errors_with_other_causes_and_other_severities_stay_apart(tmp_path: Path
     path = robot(
         tmp_path / "r.urdf", [f"{folder}/{n}.stl" for folder in ("a", "b") for n in range(SMALLEST_ALIKE)], UNIT
     )
-    findings = lint(path)
+    outcome = run(find_entries([path]), Options())
+    findings = outcome.findings
     left = SMALLEST_ALIKE - 1
-    groups = [one for one in grouped(findings) if one.code == "G601"]
+    groups = [one for one in grouped(findings, outcome.sources) if one.code == "G601"]
     assert [(one.link, len(one.related)) for one in groups] == [("l0", left), (f"l{left + 1}", left)]
-    notes = [one for one in grouped(findings) if one.code == "E009"]
+    notes = [one for one in grouped(findings, outcome.sources) if one.code == "E009"]
     assert [(one.severity, len(one.related)) for one in notes] == [("note", 2 * SMALLEST_ALIKE - 1)]
-    assert sum(1 + len(one.related) for one in grouped(findings)) == len(findings)
+    assert sum(1 + len(one.related) for one in grouped(findings, outcome.sources)) == len(findings)
 
 
 def test_text_lists_ten_places_errors_first_and_ends_with_commands(tmp_path: Path) -> None:
@@ -120,3 +123,16 @@ def test_included_packages_that_do_not_exist_are_one_finding(tmp_path: Path) -> 
         )
     (found,) = lint_json(tmp_path)
     assert (found["code"], len(found["related"])) == ("X113", SMALLEST - 1)
+
+
+def test_warnings_of_one_kind_are_one_finding_and_others_stay_apart(tmp_path: Path) -> None:
+    limits = ['lower="0" upper="0"'] * SMALLEST + [""] * SMALLEST
+    joints = [
+        f'<joint name="j{n}" type="revolute"><parent link="a"/><child link="l{n}"/><limit {limit} effort="1" '
+        f'velocity="1"/></joint><link name="l{n}"/>'
+        for n, limit in enumerate(limits)
+    ]
+    path = tmp_path / "r.urdf"
+    path.write_text("\n".join(['<robot name="r"><link name="a"/>', *joints, "</robot>"]))
+    found = lint_json(path, "--select", "J406")
+    assert [len(one["related"]) for one in found] == [SMALLEST - 1] * 2

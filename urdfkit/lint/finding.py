@@ -67,7 +67,7 @@ class Finding:
         fix: the edits of `urdfkit lint --fix`; None if there is no automatic fix.
         chains: chains of macro calls, innermost call first, one for each expansion; empty outside of macros.
         cause: words that findings of one rule share if they have one cause; empty if the message is the same.
-        kind: which of the rule's defects it is, where other rules depend on it, see `consequences`; not in the output.
+        kind: which of the rule's defects it is, where groups or other rules depend on it; not in the output.
         names: further names that the finding is about, such as both joints of a pair; not in the output.
         suggestion: the valid name that message or help suggest in place of a misspelt one; None without one.
         related: the findings of other places with the same cause, where findings are grouped.

@@ -30,7 +30,7 @@ def show(outcome: Outcome, form: str, paths: Sequence[str], *, statistics: bool,
     """
     from urdfkit.lint.report.groups import grouped
 
-    findings = grouped(outcome.findings)
+    findings = grouped(outcome.findings, outcome.sources)
     if statistics:
         _count(outcome.findings, as_json=form == "json")
     elif form == "json":

@@ -6,7 +6,7 @@ number. A fix causes a new finding if
 - the file is no longer well-formed, or a unique element occurs twice;
 - the finding is about text written by the fix: any finding for unsafe fixes, spelling and numbers for safe fixes;
 - xacro fails at a tag that the fix has changed;
-- the finding names a word that the fix has removed or inserted.
+- the finding is about a name that the fix has removed or inserted.
 
 Other new findings are defects that were masked before. Notes are never regressions.
 """
@@ -56,7 +56,8 @@ class WrittenText:
         """Return whether the edits cause a new finding."""
         if finding.severity == "note":
             return False
-        if finding.code in _ALWAYS or any(f"`{name}`" in finding.message for name in self.names):
+        about = {finding.link, finding.joint, *finding.names}
+        if finding.code in _ALWAYS or not about.isdisjoint(self.names):
             return True
         span = finding.span
         start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)

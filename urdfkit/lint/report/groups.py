@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
-from urdfkit.defect_message import pattern_of
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import SEVERITIES, Finding
 
 SMALLEST = 4
@@ -13,46 +13,53 @@ SMALLEST = 4
 SMALLEST_ALIKE = 10
 """The same for errors of one kind, which may be separate mistakes, and for notes without a named cause."""
 
-_VALUE = r"\d\.\d{2}|[1-9]\d\.\d|[1-9]\d{2}"
+_SUBJECT = r"<?/?[\w:.-]+"
+"""Matches the tag or attribute at the start of a place in XML."""
+_KEY = r"\W*([\w.]+)"
+"""Matches the first word of a line in YAML, Python or CMake."""
+_NUMBER = r"(?<![\w.-])-?[\d.]+(?:[eE][+-]?\d+)?(?![\w.])"
+_VALUE = r"-?(?:\d*\.\d{2,}|[1-9]\d*\.\d+|[1-9]\d{2,})"
 """Matches a number with three digits, which two separate mistakes seldom share."""
 
 
-def grouped(findings: Iterable[Finding]) -> list[Finding]:
+def grouped(findings: Iterable[Finding], sources: Mapping[str, Source]) -> list[Finding]:
     """Return one finding for each cause, sorted by position; `Finding.related` contains its other places.
 
     Findings have one cause if they have the same code, severity and `Finding.cause`. Where the rule names no cause,
-    warnings and notes have one if their messages differ in names, tags and numbers only: an export that gives no joint
-    an effort limit, rounded angles. Errors have one if there are many of these, or if they come from copies of a robot:
-    their messages have the same values, or each is in a file of its own.
+    warnings and notes have one if they have the same kind, or without a kind are about the same attribute, tag or key:
+    an export that gives no joint an effort limit, rounded angles. Errors have one if there are many of these, or if
+    they come from copies of a robot: their places have the same numbers, or each is in a file of its own.
 
     Args:
         findings: sorted by position.
+        sources: the files with findings, by name.
     """
-    groups: dict[tuple[str, str, str], list[Finding]] = {}
+    groups: dict[tuple[str, ...], list[Finding]] = {}
     for finding in findings:
-        groups.setdefault((finding.code, finding.severity, finding.cause or _kind(finding)), []).append(finding)
+        kind = (finding.cause,) if finding.cause else _kind(finding, sources)
+        groups.setdefault((finding.code, finding.severity, *kind), []).append(finding)
     found: list[Finding] = []
     for group in groups.values():
-        for part in _parts(group):
+        for numbers, part in _parts(group, sources):
             first, *others = part
-            if len(part) < _smallest(part):
+            if len(part) < _smallest(part, numbers):
                 found += part
             else:
                 found.append(Finding(**{**first.__dict__, "related": tuple(others)}))
     return sorted(found, key=lambda one: (one.span, one.code, one.message))
 
 
-def _parts(group: list[Finding]) -> list[list[Finding]]:
-    """Return errors of one kind by their values, unless there are many; other findings in one part."""
+def _parts(group: list[Finding], sources: Mapping[str, Source]) -> Iterable[tuple[tuple[str, ...], list[Finding]]]:
+    """Return errors of one kind by the numbers of their places, unless there are many; other findings in one part."""
     if group[0].severity != "error" or group[0].cause or len(group) >= SMALLEST_ALIKE:
-        return [group]
-    parts: dict[str, list[Finding]] = {}
+        return [((), group)]
+    parts: dict[tuple[str, ...], list[Finding]] = {}
     for finding in group:
-        parts.setdefault(re.sub(r"`[^`]*`", "…", finding.message), []).append(finding)
-    return list(parts.values())
+        parts.setdefault(tuple(re.findall(_NUMBER, _marked(finding, sources)[0])), []).append(finding)
+    return parts.items()
 
 
-def _smallest(group: list[Finding]) -> int:
+def _smallest(group: list[Finding], numbers: Iterable[str]) -> int:
     """Return the number of findings from which on a group of them is shown as one.
 
     Notes on one cause always are, and findings whose cause and message are the same: a package that is not found.
@@ -64,15 +71,26 @@ def _smallest(group: list[Finding]) -> int:
         return 2 if first.cause else SMALLEST_ALIKE
     if first.cause or first.severity == "warning":
         return SMALLEST
-    is_of_copies = re.search(_VALUE, first.message) is not None or len({one.file for one in group}) == len(group)
+    is_of_copies = any(re.fullmatch(_VALUE, each) for each in numbers) or len({one.file for one in group}) == len(group)
     return SMALLEST if is_of_copies and not first.meant else SMALLEST_ALIKE
 
 
-def _kind(finding: Finding) -> str:
-    """Return the common part of the messages of one kind; misspelt names are separate mistakes."""
+def _kind(finding: Finding, sources: Mapping[str, Source]) -> tuple[str, ...]:
+    """Return which of the rule's defects a finding is, and the part of the file; misspelt names are separate errors."""
     if finding.severity == "error" and finding.meant:
-        return finding.message
-    return pattern_of(finding.message.removesuffix(finding.suggestion or ""))
+        return finding.kind, finding.message
+    if finding.kind:
+        return (finding.kind,)
+    marked, line = _marked(finding, sources)
+    found = re.match(_SUBJECT, marked) if line.lstrip().startswith("<") else re.match(_KEY, line)
+    return "", found[found.re.groups] if found is not None else finding.message
+
+
+def _marked(finding: Finding, sources: Mapping[str, Source]) -> tuple[str, str]:
+    """Return the text of the place of a finding, and the start of its line before it with the text."""
+    source, span = sources[finding.file], finding.span
+    start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+    return source.text[start:end], source.text[source.offset(span.line, 1) : end]
 
 
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:

@@ -124,20 +124,24 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         covariances = values.get(name)
         if covariances is not None and covariances.kind == "list" and len(covariances.items) != 6:
             yield covariances, f"`{name}` has {len(covariances.items)} values; it requires 6"
-    for key, value in node.entries:
-        listed: set[str] = set()
-        for item in value.items if key.text in ("joints", "left_wheel_names", "right_wheel_names") else ():
-            if item.text and item.text in listed:
-                lacking = _without_entry(value, values.get("constraints"))
-                hint = f"; `{lacking}` is missing" if lacking else ""
-                yield item, f"`{item.text}` occurs twice in `{key.text}`" + hint
-            listed.add(item.text)
     for left, right in _WHEELS:
         names = values[left].texts() if left in values and right in values else []
         opposite = [values[right], *values[right].items] if names else []
         for item in opposite:
             if item.text and item.text in names:
                 yield item, f"wheel `{item.text}` is in `{left}` and in `{right}`"
+
+
+def repeated_joints(node: Node) -> Iterator[tuple[Node, str, tuple[str, ...]]]:
+    """Yield the joints that a list of one mapping has twice, and the name that the list lacks in their place."""
+    for key, value in node.entries:
+        listed: set[str] = set()
+        for item in value.items if key.text in ("joints", "left_wheel_names", "right_wheel_names") else ():
+            if item.text and item.text in listed:
+                lacking = _without_entry(value, node.find("constraints"))
+                hint = f"; `{lacking}` is missing" if lacking else ""
+                yield item, f"`{item.text}` occurs twice in `{key.text}`" + hint, (lacking,) if lacking else ()
+            listed.add(item.text)
 
 
 def _without_entry(joints: Node, constraints: Node | None) -> str:

@@ -105,10 +105,9 @@ class InterfaceLimits(RobotRule):
             help = None
             if joint.type != "prismatic" and name == "position" and abs(value) > _DEGREES_RATIO * max(abs(limit), 0.1):
                 severity, help = "warning", "write angles in radians"
-            message = (
-                f"{name} command of joint `{joint.name}`: {which} {value:g} is beyond the joint limit {limit:g} {unit}"
-            )
-            yield self.at(model, params[which], message, joint=joint.name, severity=severity, help=help)
+            kind = f"{name} command"
+            message = f"{kind} of joint `{joint.name}`: {which} {value:g} is beyond the joint limit {limit:g} {unit}"
+            yield self.at(model, params[which], message, joint=joint.name, severity=severity, help=help, kind=kind)
             return
 
 

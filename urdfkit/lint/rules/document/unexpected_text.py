@@ -74,5 +74,6 @@ class UnexpectedText(RobotRule):
                     help="remove it, or restore the tag or comment it belongs to",
                     fix=Fix("unsafe", "Remove the text", (Edit(span, ""),)),
                     chains=(element.origin.expansions,) if element.origin.expansions else (),
+                    kind="text",
                 )
             offset = end

@@ -87,4 +87,5 @@ class UnknownAttribute(RobotRule):
                     else f"known attributes: {', '.join(allowed) or 'none'}",
                     fix=fix,
                     severity=None if suggestion or attribute in _ALL else "note",
+                    kind="attribute",
                 )

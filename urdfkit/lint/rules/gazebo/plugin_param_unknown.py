@@ -48,7 +48,7 @@ class PluginParamUnknown(RobotRule):
             spec = spec_of(plugin, model.target) if not is_foreign(plugin, model) else None
             for parameter in unread(plugin, spec) if spec is not None else ():
                 if parameter.promised:
-                    yield self.at(model, parameter.element, parameter.message, severity="note")
+                    yield self.at(model, parameter.element, parameter.message, severity="note", kind="promised")
                     continue
                 suggestion = parameter.meant
                 yield self.at(
@@ -59,4 +59,5 @@ class PluginParamUnknown(RobotRule):
                     fix=new_tag(model, parameter.element, suggestion, "unsafe", f"Rename to <{suggestion}>")
                     if suggestion
                     else None,
+                    kind=f"{spec.kind} {spec.generation}" if spec is not None else "",
                 )

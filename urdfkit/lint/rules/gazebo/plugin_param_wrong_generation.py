@@ -68,4 +68,5 @@ class PluginParamWrongGeneration(RobotRule):
                     fix=None
                     if equivalent is None or is_set
                     else new_tag(model, child, equivalent.tag, "unsafe", f"Rename to <{equivalent.tag}>"),
+                    kind=spec.generation,
                 )

@@ -66,4 +66,5 @@ class InertiaNotPositiveDefinite(RobotRule):
                     link=link.name,
                     help="compute it from shape and mass; products of inertia are small compared with the diagonal",
                     severity=severity,
+                    kind=sign,
                 )

@@ -104,4 +104,5 @@ class MovingLinkWithoutInertial(RobotRule):
                 joint=None if joint is None else joint.name,
                 help="add <inertial> with <mass> and <inertia>",
                 severity=severity,
+                kind="free" if joint is None else "moved",
             )

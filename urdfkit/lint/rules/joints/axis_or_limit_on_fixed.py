@@ -58,4 +58,5 @@ class AxisOrLimitOnFixed(RobotRule):
                     joint=joint.name,
                     help=f"remove {names}, or change the joint type if the joint should move",
                     fix=Fix("safe", f"Remove {names}", edits) if None not in fixes else None,
+                    kind="both" if len(idle) > 1 else "one",
                 )

@@ -58,4 +58,5 @@ class EffortOrVelocityZero(RobotRule):
                     joint=joint.name,
                     help=f"write the {' and '.join(zero)} of the actuator",
                     severity="warning" if is_only or model.target in ("gz", "classic", "isaac") else None,
+                    kind=" ".join(zero),
                 )

@@ -64,6 +64,7 @@ class LimitEqual(RobotRule):
                     joint=joint.name,
                     help=f"write the range of motion, or use the type {alternative}`fixed` if it never moves",
                     severity="note" if lower else None,
+                    kind="omitted" if is_omitted else unit,
                 )
 
 

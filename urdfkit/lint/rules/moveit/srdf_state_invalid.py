@@ -127,19 +127,19 @@ class SrdfStateInvalid(RobotRule):
         if joint is None or text is None:
             return
 
-        def found(message: str, help: str | None = None) -> Findings:
-            yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity)
+        def found(kind: str, message: str, help: str | None = None) -> Findings:
+            yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity, kind=kind)
 
         try:
             numbers = [float(word) for word in text.split()]
         except ValueError:
-            yield from found(f"value `{text}` of joint `{name}` is not a number")
+            yield from found("text", f"value `{text}` of joint `{name}` is not a number")
             return
         count = _COUNT.get(joint.type or "")
         if joint.type == "fixed":
-            yield from found(f"joint `{name}` is fixed and has no value")
+            yield from found("fixed", f"joint `{name}` is fixed and has no value")
         elif count is not None and len(numbers) != count:
-            yield from found(f"joint `{name}` has {len(numbers)} values; a {joint.type} joint has {count}")
+            yield from found("count", f"joint `{name}` has {len(numbers)} values; a {joint.type} joint has {count}")
         elif joint.type in ("revolute", "prismatic") and joint.limit is not None:
             lower, upper = joint.limit.lower or 0.0, joint.limit.upper or 0.0
             if lower < upper and not lower - _TOLERANCE <= numbers[0] <= upper + _TOLERANCE:
@@ -148,4 +148,5 @@ class SrdfStateInvalid(RobotRule):
                 in_degrees = unit == "rad" and abs(numbers[0]) > math.tau and lower <= radians <= upper
                 limits = f"{lower:g} … {upper:g} {unit}"
                 message = f"value {numbers[0]:g} {unit} of joint `{name}` is beyond its limits {limits}"
-                yield from found(message, f"write {radians:.5g} if the value is in degrees" if in_degrees else None)
+                help = f"write {radians:.5g} if the value is in degrees" if in_degrees else None
+                yield from found(unit, message, help)

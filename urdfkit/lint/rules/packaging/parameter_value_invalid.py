@@ -80,7 +80,12 @@ class ParameterValueInvalid(RobotRule):
     def _in_yaml(self, model: Model, unread: set[str]) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.controller_needs import unmet_needs
-        from urdfkit.lint.facts.control.parameter_values import contradictions, incomplete_controllers, value_defects
+        from urdfkit.lint.facts.control.parameter_values import (
+            contradictions,
+            incomplete_controllers,
+            repeated_joints,
+            value_defects,
+        )
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
@@ -116,8 +121,11 @@ class ParameterValueInvalid(RobotRule):
                     continue
                 seen.add((node.line, node.column))
                 in_controllers = value_defects(node, PARAMETERS in source.text) if is_of_controllers else ()
+                for place, message in _repeated_keys(node):
+                    yield self.at_span(span_of(source, place), message, kind="key")
                 for place, message in (*_in_any(node, source.file in of_moveit), *in_controllers):
-                    lacking = tuple(re.findall(r"`([\w/.-]+)` is missing$", str(message)))
+                    yield self.at_span(span_of(source, place), message)
+                for place, message, lacking in repeated_joints(node) if is_of_controllers else ():
                     kind = "twice" if lacking else ""
                     yield self.at_span(span_of(source, place), message, names=lacking, kind=kind)
             if is_of_controllers:
@@ -138,13 +146,17 @@ def _new(defects: Iterator[tuple[Node, str]], found: tuple[tuple[Node, str], ...
     )
 
 
-def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
+def _repeated_keys(node: Node) -> Iterator[tuple[Node, str]]:
     first: dict[str, Node] = {}
     for key, value in node.entries:
         before = first.setdefault(key.text, key)
         # rcl merges the parameters of a ROS 2 node that is named twice.
         if before is not key and key.text != "<<" and not _has_parameters(value):
             yield key, f"duplicate key `{key.text}`; the first is on line {before.line}; only the last value applies"
+
+
+def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
+    for key, value in node.entries:
         is_limit = is_of_moveit and re.fullmatch(r"has_\w+_limits", key.text)  # moveit-setting-invalid reports these
         if value.is_plain and re.fullmatch(_MISSPELT, value.text) and not is_limit:
             yield (

@@ -113,8 +113,7 @@ class DriveWheelsMisaligned(RobotRule):
     def _same_place(self, model: Model, side: Sequence[Wheel]) -> Findings:
         """Yield a finding for each wheel at the place of the wheel before it on the same side."""
         for first, other in pairwise(side):
-            pairs = zip(first.middles, other.middles, strict=False)
-            if first.joint is not other.joint and max(dist(a, b) for a, b in pairs) < _MIN_DISTANCE:
+            if first.joint is not other.joint and max(_distances(first, other)) < _MIN_DISTANCE:
                 message = f"drive wheels `{first.joint.name}` and `{other.joint.name}` are in the same place"
                 yield self._at(model, first, other, message, "correct the <origin> of one of the joints")
 
@@ -122,9 +121,17 @@ class DriveWheelsMisaligned(RobotRule):
         from urdfkit.lint.facts.macro_calls import equal_call
 
         joint, names = other.joint, (first.joint.name,)
-        call = equal_call(model, first.joint.element, joint.element) if "same place" in message else None
+        call = (
+            equal_call(model, first.joint.element, joint.element)
+            if max(_distances(first, other)) < _MIN_DISTANCE
+            else None
+        )
         place, attribute = (joint.element, "name") if call is None else (call, None)
         return self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
+
+
+def _distances(one: Wheel, other: Wheel) -> list[float]:
+    return [dist(a, b) for a, b in zip(one.middles, other.middles, strict=False)]
 
 
 def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:
@@ -132,21 +139,13 @@ def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:
     if not (left.joint.is_movable and right.joint.is_movable):
         return None
     both = f"`{left.joint.name}` and `{right.joint.name}`"
-    distances = [
-        dist(left_centre, right_centre) for left_centre, right_centre in zip(left.middles, right.middles, strict=False)
-    ]
+    distances = _distances(left, right)
     if max(distances) < _MIN_DISTANCE:
         return f"drive wheels {both} are in the same place", "correct the <origin> of one of the joints"
     if sum(a * b for a, b in zip(left.axis, right.axis, strict=True)) < _OPPOSITE:
         message = f"the axes of drive wheels {both} point in opposite directions, so the robot turns on the spot"
         return message, "reverse the axis of one of the joints"
-    height_difference = min(
-        (
-            left_centre[2] - right_centre[2]
-            for left_centre, right_centre in zip(left.middles, right.middles, strict=False)
-        ),
-        key=abs,
-    )
+    height_difference = min((a[2] - b[2] for a, b in zip(left.middles, right.middles, strict=False)), key=abs)
     if abs(height_difference) > max(_MIN_DISTANCE, 0.05 * max(distances)) and left.radii == right.radii:
         message = f"drive wheels {both} differ in height by {abs(height_difference):.3g} m"
         return message, "place both joints at the same height"
