@@ -16,15 +16,15 @@ _SIMULATION = re.compile(r"(^|_)(sim|simulation|gazebo|gz|ignition|ign|mock|fake
 
 
 def simulation_hint(robot: Robot) -> str:
-    """Return the end of a message that lists the arguments that enable the simulated hardware; empty without any.
+    """Return the advice to pass the arguments that enable the simulated hardware; empty without any.
 
-    All files of the robot are searched. The end is empty, too, if the robot was loaded with such an argument.
+    All files of the robot are searched. It is empty, too, if the robot was loaded with such an argument.
     """
     defaults = declared_arguments([read_source(file) for file in robot.files if file.is_file()])
     enabling = [name for name, value in defaults.items() if value in _FALSE and _SIMULATION.search(name)]
     if not enabling or any(name in robot.arguments for name in enabling):
         return ""
-    return f"; pass {' or '.join(f'{name}:=true' for name in enabling)}"
+    return f"pass {' or '.join(f'{name}:=true' for name in enabling)}"
 
 
 _CONTROLLERS = ("ros2_control", "gazebo_ros_control", "joint_controller", "joint_position_controller")
@@ -65,7 +65,7 @@ def not_run(block: Ros2Control, robot: Robot) -> tuple[str, str]:
     of = f" with the hardware `{name}`" if name else ""
     message = f"no plugin runs ros2_control `{block.name or ''}`{of}: its joints are not controlled"
     if hint := simulation_hint(robot):
-        return message, hint.removeprefix("; ")
+        return message, hint
     if name in GAZEBO_PLUGINS:
         return message, f'add <gazebo><plugin filename="{GAZEBO_PLUGINS[name][0]}" name="{GAZEBO_PLUGINS[name][1]}"/>'
     meant = next(iter(GAZEBO_PLUGINS))

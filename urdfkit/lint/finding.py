@@ -183,6 +183,7 @@ class EntryResult:
         note: one line with the guessed target and the reason; empty if no target was guessed.
         used: position of each comment that suppresses findings of this entry, with a code.
         unused: position of each comment with unused suppressions, with their codes; without codes if it has none.
+        without_robot: name of the package, if it has no robot, so that only its other files were linted.
         refused: one line with the reason why the entry was not linted, or not by all rules; else empty.
     """
 
@@ -192,6 +193,7 @@ class EntryResult:
     used: tuple[tuple[str, str], ...] = ()
     refused: str = ""
     unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    without_robot: str = ""
 
 
 def suggestion_of(*texts: str | None) -> Suggestion | None:

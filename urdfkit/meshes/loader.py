@@ -44,6 +44,20 @@ _PULLS = re.compile(rb"<init_from>|\"uri\"")
 """Matches references to image files next to the mesh file."""
 
 
+class MeshError(ResourceError):
+    """A mesh file that cannot be read.
+
+    Args:
+        path: the file.
+        fault: the reason, as the rest of a sentence about the mesh.
+        kind: see `ResourceError`.
+    """
+
+    def __init__(self, path: Path, fault: str, kind: str = "") -> None:
+        super().__init__(f"mesh {path.name} {fault}", kind=kind)
+        self.fault = fault
+
+
 class MeshLoader:
     """Reads mesh files and caches them by content, so that a mesh used several times is read once.
 
@@ -84,9 +98,9 @@ class MeshLoader:
             MissingDependencyError: trimesh is not installed.
         """
         if path.suffix.lower() not in FORMATS:
-            raise ResourceError(
-                f"mesh {path.name} has an unsupported format{did_you_mean(path.suffix, FORMATS)}; "
-                f"supported: {' '.join(FORMATS)}",
+            raise MeshError(
+                path,
+                f"has an unsupported format{did_you_mean(path.suffix, FORMATS)}; supported: {' '.join(FORMATS)}",
                 kind="format",
             )
         content = _read(path)
@@ -106,24 +120,24 @@ def _read(path: Path) -> bytes:
     """Return the content of a mesh file after a check of size and header."""
     try:
         if path.is_dir():
-            raise ResourceError(f"mesh {path.name} is a folder")
+            raise MeshError(path, "is a folder")
         if not path.is_file():
             raise ResourceError(f"missing mesh file {path}" + near_path(path), kind="file")
         if (size := path.stat().st_size) > MAX_BYTES:
-            raise ResourceError(
-                f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported; decimate it"
+            raise MeshError(
+                path, f"has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported; decimate it"
             )
         content = path.read_bytes()
     except OSError as error:
         raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
     if not content:
-        raise ResourceError(f"mesh {path.name} is empty")
+        raise MeshError(path, "is empty")
     if content.startswith(LFS):
-        raise ResourceError(f"mesh {path.name} {POINTER}")
+        raise MeshError(path, POINTER)
     if fault := _fault(path.suffix.lower(), content):
-        raise ResourceError(f"mesh {path.name} {fault}")
+        raise MeshError(path, fault)
     if path.suffix.lower() == ".dae" and (reason := rejection_reason(content)) is not None:
-        raise ResourceError(f"mesh {path.name} is rejected: {reason}")
+        raise MeshError(path, f"is rejected: {reason}")
     return content
 
 
@@ -173,7 +187,7 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
     except ResourceError:
         raise
     except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
-        raise ResourceError(f"mesh {path.name} cannot be read: {reading_fault(suffix, content)}") from error
+        raise MeshError(path, f"cannot be read: {reading_fault(suffix, content)}") from error
     missing, broken = tuple(dict.fromkeys(beside.missing)), tuple(dict.fromkeys(beside.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh
 
@@ -196,7 +210,7 @@ def _of_many_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np
     if len(corners) > MAX_TRIANGLES:
         raise ResourceError(f"mesh has more than {MAX_TRIANGLES} triangles; decimate it")
     if not all(np.isfinite(corners[at : at + CHUNK]).all() for at in range(0, len(corners), CHUNK)):
-        raise ResourceError(f"mesh {path.name} is invalid: a vertex is not finite")
+        raise MeshError(path, "is invalid: a vertex is not finite")
     found = clustered(len(corners), lambda chunk: corners[chunk] * scale)
     faces = found.faces[:, ::-1] if np.prod(scale) < 0 else found.faces
     return TriMesh(found.vertices, np.ascontiguousarray(faces), simplified_from=len(corners))
@@ -208,7 +222,7 @@ def _of_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.floa
         raise ResourceError(f"mesh has more than {MAX_TRIANGLES} triangles; decimate it")
     points = (corners.reshape(-1, 3).astype(float) * scale).astype(np.float32) + np.float32(0)
     if not np.isfinite(points).all():
-        raise ResourceError(f"mesh {path.name} is invalid: a vertex is not finite")
+        raise MeshError(path, "is invalid: a vertex is not finite")
     rows, index = _unique(points.view(np.uint32))
     faces = index.astype(np.int32).reshape(-1, 3)
     if np.prod(scale) < 0:  # a mirrored mesh has reversed triangles
@@ -225,11 +239,11 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
     for part, transform in parts:
         linear = scale[:, None] * transform[:3, :3]
         if np.shape(part.vertices)[1:] != (3,):
-            raise ResourceError(f"mesh {path.name} is invalid: a vertex does not have three coordinates")
+            raise MeshError(path, "is invalid: a vertex does not have three coordinates")
         points = matmul(np.asarray(part.vertices, dtype=float), linear.T) + scale * transform[:3, 3]
         triangles = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
         if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
-            raise ResourceError(f"mesh {path.name} is invalid: a triangle refers to a missing vertex")
+            raise MeshError(path, "is invalid: a triangle refers to a missing vertex")
         if np.linalg.det(linear) < 0:  # a mirrored mesh has reversed triangles
             triangles = triangles[:, ::-1]
         vertices.append(points)
@@ -244,7 +258,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         glosses.append(np.tile(np.array(gloss_in(part), dtype=np.float32), (len(triangles), 1)))
         start += len(points)
     if not start or not sum(map(len, faces)):
-        raise ResourceError(f"mesh {path.name} has no triangles")
+        raise MeshError(path, "has no triangles")
     fields: list[tuple[str, Any, int] | tuple[str, Any]] = [("position", np.float32, 3)]
     if has_uv := any(uv is not None for uv in uvs):
         fields.append(("uv", np.float32, 2))
@@ -257,7 +271,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
     corners = np.zeros(start, dtype=fields)
     corners["position"] = np.concatenate(vertices).astype(np.float32) + np.float32(0)  # -0.0 becomes 0.0
     if not np.isfinite(corners["position"]).all():
-        raise ResourceError(f"mesh {path.name} is invalid: a vertex is not finite")
+        raise MeshError(path, "is invalid: a vertex is not finite")
     if has_uv:
         corners["uv"] = _filled(uvs, vertices, 2, 0.0) + np.float32(0)
     if has_normals:

@@ -262,3 +262,17 @@ def test_files_that_rules_search_count(package):
     Path("q/package.xml").write_text("<package><name>q</name></package>")
     assert lint(package).cached == 0, "a neighbour"
     assert lint(package).cached == 1
+
+
+def test_findings_keep_what_their_groups_need(tmp_path, monkeypatch):
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "cache"))
+    path = tmp_path / "r.urdf"
+    joint = (
+        '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><limit effort="1" velocity="1"/></joint>'
+    )
+    path.write_text(f'<robot name="r"><link name="a"/><link name="b"/>{joint}</robot>')
+    new, kept = (run(find_entries([path]), Options(), cached=True) for _ in range(2))
+    assert kept.cached == 1
+    kinds = [(one.kind, one.names) for one in new.findings]
+    assert ("omitted", ()) in kinds
+    assert [(one.kind, one.names) for one in kept.findings] == kinds

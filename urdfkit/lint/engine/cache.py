@@ -110,9 +110,8 @@ class Cache:
             )  # written by urdfkit, complete, and by this Python version, as marshal requires
             if not self._holds(kept, entry):
                 return None
-            found = EntryResult(
-                tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"], unused=kept["unused"]
-            )
+            parts = {name: kept[name] for name in ("files", "note", "used", "unused", "without_robot")}
+            found = EntryResult(tuple(map(_finding, kept["findings"])), **parts)
         except (OSError, ValueError, EOFError, KeyError, TypeError, RuntimeError):
             return None
         return found
@@ -163,6 +162,7 @@ class Cache:
                 "note": found.note,
                 "used": found.used,
                 "unused": found.unused,
+                "without_robot": found.without_robot,
             },
         )
 
@@ -285,6 +285,8 @@ def _row(finding: Finding) -> list[Any]:
         finding.cause,
         finding.variant,
         finding.suggestion and [finding.suggestion.meant, finding.suggestion.written],
+        finding.kind,
+        finding.names,
     ]
 
 
@@ -296,7 +298,7 @@ def _finding(row: list[Any]) -> Finding:
     from urdfkit.description.xml.source import Expansion, Position, Span
 
     code, name, severity, message = row[:4]
-    link, joint, help, fix, chains, cause, variant, suggestion = row[9:]
+    link, joint, help, fix, chains, cause, variant, suggestion, kind, names = row[9:]
     return Finding(
         code,
         name,
@@ -309,6 +311,8 @@ def _finding(row: list[Any]) -> Finding:
         fix and Fix(fix[0], fix[1], tuple(Edit(Span(*edit[:5]), edit[5]) for edit in fix[2])),
         tuple(tuple(Expansion(call[0], Position(*call[1:])) for call in chain) for chain in chains),
         cause,
-        variant=variant,
+        kind,
+        names,
         suggestion=suggestion and Suggestion(*suggestion),
+        variant=variant,
     )

@@ -18,7 +18,6 @@ from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.robot_text import is_nearly_robot
 from urdfkit.lint.project.target_platform import family_of, release_of
-from urdfkit.lint.project.unrelated_packages import WITHOUT_ROBOT
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -238,11 +237,10 @@ class Checker:
         files = {name: os.path.join(str(Path.cwd()), name) for name in model.related_files}  # noqa: PTH118
         self.sources.update(model.related_files)
         folder = entry.path.absolute().parent
-        if not any(next(folder.rglob(end), None) for end in ("*.urdf", "*.xacro")):  # other packages include them
-            without = f"{folder.name}{WITHOUT_ROBOT}"
-            note = f"{note}; {without}" if note else without
-        result = EntryResult(tuple(_only(entry, findings, files)), files, note, refused="; ".join(self.runner.failures))
-        return result, model
+        is_included = any(next(folder.rglob(end), None) for end in ("*.urdf", "*.xacro"))  # by other packages
+        name = "" if is_included else folder.name
+        found, refused = tuple(_only(entry, findings, files)), "; ".join(self.runner.failures)
+        return EntryResult(found, files, note, refused=refused, without_robot=name), model
 
 
 def _only(entry: Entry, findings: list[Finding], files: Mapping[str, str]) -> list[Finding]:

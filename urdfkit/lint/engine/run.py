@@ -6,9 +6,8 @@ from pathlib import Path
 
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.cache import cache_for
-from urdfkit.lint.finding import SEVERITIES, Finding
+from urdfkit.lint.finding import SEVERITIES, EntryResult, Finding
 from urdfkit.lint.project.options import Options
-from urdfkit.lint.project.unrelated_packages import WITHOUT_ROBOT
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -97,20 +96,20 @@ def run(
     files = {name: Path(path) for one in every for name, path in one.files.items()}
     used = {each for one in every for each in one.used}
     findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, one.unused, used))
-    notes = dict.fromkeys(one.note for one in every if one.note)
     refused = tuple(dict.fromkeys(one.refused for one in every if one.refused))
-    return Outcome(tuple(findings), Sources(sources, files), files, _counted(list(notes)), hits, refused)
+    return Outcome(tuple(findings), Sources(sources, files), files, _notes(every), hits, refused)
 
 
-def _counted(notes: list[str]) -> tuple[str, ...]:
-    """Return the notes, those on packages without a robot as one."""
-    without = [note for note in notes if note.endswith(WITHOUT_ROBOT)]
-    if len(without) < 2:
-        return tuple(notes)
-    names = [note.removesuffix(WITHOUT_ROBOT).rpartition(" ")[2] for note in without]
-    shown = ", ".join(names[:3]) + (" …" if len(names) > 3 else "")
-    one = f"{len(names)} packages have no robot: only their other files are linted ({shown})"
-    return (*(note for note in notes if note not in without), one)
+def _notes(results: list[EntryResult]) -> tuple[str, ...]:
+    """Return the notes of results once, those on packages without a robot as one."""
+    names = list(dict.fromkeys(one.without_robot for one in results if one.without_robot))
+    if len(names) > 1:
+        shown = ", ".join(names[:3]) + (" …" if len(names) > 3 else "")
+        notes = dict.fromkeys(one.note for one in results if one.note and not one.without_robot)
+        return (*notes, f"{len(names)} packages have no robot: only their other files are linted ({shown})")
+    without = {name: f"{name} has no robot: only its other files are linted" for name in names}
+    parts = (filter(None, (one.note, without.get(one.without_robot))) for one in results)
+    return tuple(dict.fromkeys(filter(None, map("; ".join, parts))))
 
 
 def _is_in_use(finding: Finding, unused: tuple[tuple[str, tuple[str, ...]], ...], used: set[tuple[str, str]]) -> bool:

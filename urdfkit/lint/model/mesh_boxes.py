@@ -77,7 +77,7 @@ class MeshBoxes:
         except ImportError:
             return None
         except UrdfkitError as error:
-            self._faults[mesh.uri] = str(error).removeprefix(f"mesh {path.name} ")
+            self._faults[mesh.uri] = getattr(error, "fault", str(error))
             return None
         return tuple(low), tuple(high)
 

@@ -14,9 +14,6 @@ from urdfkit.description.packages.related_files import (
     packages_around,
 )
 
-WITHOUT_ROBOT = " has no robot: only its other files are linted"
-"""End of the note on a package without a robot, after its name."""
-
 
 def unrelated_packages(folder: Path, robots: Iterable[Path]) -> list[Path]:
     """Return the packages in a folder whose files no robot's check reads, sorted.

@@ -313,7 +313,7 @@ def test_hardware_of_the_real_robot_is_left_out(make: Make, monkeypatch: pytest.
     assert any(
         "its hardware `arm_driver/ArmHardware` is ignored; controller `arm_controller`" in each for each in notes
     )
-    monkeypatch.setattr(ros2_control, "simulation_hint", lambda robot: "; pass sim_mode:=true")
+    monkeypatch.setattr(ros2_control, "simulation_hint", lambda robot: "pass sim_mode:=true")
     with pytest.raises(SimulationError, match="`arm_driver/ArmHardware` is not the simulator's; pass sim_mode:=true"):
         make(TRAJECTORIES, (GZ[0], GZ[1], "arm_driver/ArmHardware"), strict=True)
 
@@ -334,7 +334,7 @@ def test_the_arguments_that_enable_the_simulation_are_listed(tmp_path: Path) -> 
         '<xacro:arg name="simple" default="false"/><xacro:arg name="use_sim" default="true"/>'
         '<!-- <xacro:arg name="use_gazebo" default="false"/> --><link name="a"/></robot>'
     )
-    assert simulation_hint(load(path)) == "; pass sim_gazebo:=true"
+    assert simulation_hint(load(path)) == "pass sim_gazebo:=true"
     assert simulation_hint(load(path, arguments={"sim_gazebo": "false"})) == ""
 
 
@@ -343,7 +343,7 @@ def test_arguments_of_included_files_are_listed_too(tmp_path: Path) -> None:
     (tmp_path / "arguments.xacro").write_text(f'<robot {xacro}><xacro:arg name="sim_mode" default="false"/></robot>')
     path = tmp_path / "r.urdf.xacro"
     path.write_text(f'<robot name="r" {xacro}><xacro:include filename="arguments.xacro"/><link name="a"/></robot>')
-    assert simulation_hint(load(path)) == "; pass sim_mode:=true"
+    assert simulation_hint(load(path)) == "pass sim_mode:=true"
 
 
 def test_a_block_that_no_plugin_runs_is_left_out_with_a_finding(tmp_path: Path) -> None:

@@ -109,7 +109,7 @@ class Ros2Control(ControlLoopPlugin):
             if name not in (*SIMULATED, *MOCKS):
                 place = (plugin or parts or block.element).origin.position
                 near = next(iter(similar(name, SIMULATED, cutoff=0.85)), None)
-                hint = simulation_hint(robot)
+                hint = f"; {hint}" if (hint := simulation_hint(robot)) else ""
                 defect = f"hardware `{name}` is not the simulator's" + Suggestion(near)
                 error = SimulationError(defect + hint if setup.repairs.strict else defect, position=place)
                 effect = "its joints are not controlled" + hint
