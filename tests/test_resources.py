@@ -209,7 +209,7 @@ def test_nothing_near_lists_the_robots(here):
 def test_usage_errors(here):
     with pytest.raises(UsageError, match="one ROBOT at a time, not 2: a b; xacro arguments are key:=value"):
         find_model(["a", "b"])
-    with pytest.raises(UsageError, match="`:=5` lacks its key"):
+    with pytest.raises(UsageError, match="`:=5` has no key"):
         find_model(["simpleton", ":=5"])
     with pytest.raises(ResourceError, match="--package-path nowhere: no such folder"):
         find_model(["simpleton"], package_path=["nowhere"])

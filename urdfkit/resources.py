@@ -110,7 +110,7 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
     for word in words:
         key, separator, value = word.partition(":=")
         if separator and not key:
-            raise UsageError(f"`{word}` lacks its key: xacro arguments are key:=value")
+            raise UsageError(f"`{word}` has no key: xacro arguments are key:=value")
         if separator:
             arguments[key] = value
     folders = tuple(_existing_folder(folder) for folder in package_path)

@@ -44,7 +44,7 @@ def test_a_declaration_without_default_is_the_only_defect(
     robot: Path, argument: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     robot.write_text(ROBOT.format('<xacro:arg name="side"/>'))
-    words = "<xacro:arg> lacks its attribute `default`"
+    words = "<xacro:arg> has no attribute `default`"
     arguments = dict(word.split(":=") for word in argument)
     found = [(one.code, one.line, one.message) for one in lint(robot, arguments=arguments) if one.code[0] in "XL"]
     assert found == [("X125", 2, words)]

@@ -44,7 +44,7 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
         (model(links("a", "b"), joint("j", "a", "b", "Revolute")), "3:1", "joint `j`: unknown type `Revolute`; did you mean `revolute`?"),
         (model(links("a", "b"), joint("j", "a", "b", "revolute")), "3:1", "revolute joint `j` lacks <limit"),
         (model(links("a", "b"), joint("j", "a", "b", "prismatic")), "3:1", "prismatic joint `j` lacks <limit"),
-        (model(links("a", "b"), joint("j", "a", "b", "revolute", '<limit lower="0" upper="1"/>')), "3:68", "joint `j`: <limit> lacks its attribute `effort`"),
+        (model(links("a", "b"), joint("j", "a", "b", "revolute", '<limit lower="0" upper="1"/>')), "3:68", "joint `j`: <limit> has no attribute `effort`"),
         (model(links("a", "b"), joint("j", "a", "b", "continuous", '<axis xyz="0 0 0"/>')), "3:70", "the axis of joint `j` is zero"),
         (model(links("a", "b"), joint("j", "a", "b", "continuous", '<mimic joint="k"/>')), "3:70", "mimics the unknown joint `k`"),
         (model(links("a"), '<link name="b"><inertial><mass value="1,5"/></inertial></link>'), "3:26", "link `b`: value of <mass>: `1,5` is not a number (a decimal comma: write a decimal point)"),

@@ -52,7 +52,7 @@ HOSTILE = {
     "deep.xacro": (computed("1+" * 4000 + "1"), "nested"),
     "macros.xacro": (
         f"<robot {XACRO} name='r'><xacro:macro name='m0'><link name='x'/></xacro:macro>{MACROS}<xacro:m8/></robot>",
-        "X126 with this call, there are more than 10,000 calls",
+        "X126 this call exceeds the limit of 10,000 macro calls",
     ),
     "blocks.xacro": (
         f"<robot {XACRO} name='r'><xacro:property name='b0'><a/></xacro:property>{BLOCKS}{LAST}</robot>",

@@ -168,7 +168,7 @@ def link(inside: str) -> str:
         (link('<visual><geometry><sphere radius="5cm"/></geometry></visual>'), "bad-number", "SI", "radius"),
         (link('<visual><geometry><sphere radius=""/></geometry></visual>'), "bad-number", "empty", "radius"),
         (link('<visual><geometry><sphere radius="−1"/></geometry></visual>'), "bad-number", "minus sign", "radius"),
-        (link("<visual><geometry><sphere/></geometry></visual>"), "missing", "lacks its attribute `radius`", "radius"),
+        (link("<visual><geometry><sphere/></geometry></visual>"), "missing", "has no attribute `radius`", "radius"),
         (link("<visual><geometry><box/></geometry></visual>"), "missing", "`size`", "size"),
         (link("<visual><geometry><mesh/></geometry></visual>"), "missing", "`filename`", "filename"),
         (link("<visual/>"), "missing", "lacks <geometry>", None),
@@ -182,8 +182,8 @@ def link(inside: str) -> str:
         ('<robot name="r"><joint name="j" type="fixed"><child link="b"/></joint></robot>', "missing", "missing <parent link=…>", None),
         ('<robot name="r"><joint name="j" type="fixed"><parent/><child link="b"/></joint></robot>', "missing", "`link`", "link"),
         ('<robot name="r"><transmission><actuator><mechanicalReduction>x</mechanicalReduction></actuator></transmission></robot>', "bad-number", "`x` is not a number", None),
-        ("<robot/>", "missing", "<robot> lacks its attribute `name`", "name"),
-        ('<robot name="r"><link/></robot>', "missing", "<link> lacks its attribute `name`", "name"),
+        ("<robot/>", "missing", "<robot> has no attribute `name`", "name"),
+        ('<robot name="r"><link/></robot>', "missing", "<link> has no attribute `name`", "name"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_used_is_noted(text: str, kind: str, message: str, attribute: str | None) -> None:

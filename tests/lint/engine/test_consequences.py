@@ -18,12 +18,12 @@ def finding(code: str, message: str, line: int = 1, **others: object) -> Finding
 
 CASES = {
     "line": (
-        finding("E014", "<mass> lacks its attribute `value`", kind="attribute"),
+        finding("E014", "<mass> has no attribute `value`", kind="attribute"),
         finding("E007", "unexpected text"),
         True,
     ),
     "other line": (
-        finding("E014", "<mass> lacks its attribute `value`", kind="attribute"),
+        finding("E014", "<mass> has no attribute `value`", kind="attribute"),
         finding("E007", "text", 2),
         False,
     ),

@@ -128,7 +128,9 @@ def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
     kind.add_argument("--diff", action="store_true", help="with --update: print the changes without writing them")
     if template.teleop:
         kind.add_argument(
-            "--teleop", action="store_true", help="then drive the robot in the browser, as `urdfkit sim teleop` does"
+            "--teleop",
+            action="store_true",
+            help="after writing the packages, start teleop in the browser, like `urdfkit sim teleop`",
         )
 
 

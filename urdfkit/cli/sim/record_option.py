@@ -25,7 +25,7 @@ def add_record(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--record",
         metavar="FILE.mcap",
-        help="record topics, including images, as MCAP for ros2 bag and Foxglove, compressed without loss",
+        help="record topics, including images, as MCAP for ros2 bag and Foxglove, losslessly compressed",
     )
     group = parser.add_argument_group("options of --record")
     group.add_argument(

@@ -71,7 +71,7 @@ def positive(parent: Element, tag: str) -> float:
     """
     child = parent.find(tag)
     if child is None:
-        raise wrong(parent, f"<{parent.tag}> lacks its <{tag}>")
+        raise wrong(parent, f"<{parent.tag}> has no <{tag}>")
     value = floats(child, 1)[0]
     if value <= 0:
         raise wrong(child, f"<{tag}> is {value:g}; it must be greater than zero")
@@ -126,7 +126,7 @@ def name_of(element: Element) -> str:
     """
     name = element.get("name")
     if not name:
-        raise wrong(element, f"<{element.tag}> lacks its name")
+        raise wrong(element, f"<{element.tag}> has no name")
     return name
 
 

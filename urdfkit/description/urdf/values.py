@@ -97,7 +97,7 @@ class Reader:
         """Return a required attribute; record a problem if it is missing."""
         value = element.attributes.get(attribute)
         if value is None:
-            self.note("missing", f"<{element.tag}> lacks its attribute `{attribute}`", element, attribute)
+            self.note("missing", f"<{element.tag}> has no attribute `{attribute}`", element, attribute)
         return value
 
     def number(

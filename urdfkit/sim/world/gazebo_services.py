@@ -146,7 +146,7 @@ class _Services:
     def create(self, message: Any) -> None:
         """Spawn an SDF or URDF model from text or a file."""
         if message.relative_to not in ("", "world"):
-            raise SimulationError("`relative_to` is not supported; use a pose in the world")
+            raise SimulationError("`relative_to` is not supported; use a pose in the world frame")
         if not (message.sdf or message.sdf_filename):
             raise SimulationError("`sdf` and `sdf_filename` are empty; cloning is not supported")
         folders = self._world.package_path

@@ -482,7 +482,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ("<gravity>0 0 nan</gravity>", "<gravity> is `0 0 nan`"),
         ("<gravity>0,0,-9.8</gravity>", "<gravity> is `0,0,-9.8`; it must be 3 finite numbers (a decimal comma"),
         ("<physics><max_step_size>0</max_step_size></physics>", "<max_step_size> is 0 s; it must be greater than zero"),
-        ("<include/>", "<include> lacks its <uri>"),
+        ("<include/>", "<include> has no <uri>"),
         ("<include><uri>model://taable</uri></include>", "or among the bundled models; did you mean `table`?"),
         ("<include><uri>http://x.org/a.sdf</uri></include>", "nothing is downloaded; download it"),
         (
@@ -495,7 +495,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
             'merge="true" is supported only for models inside models',
         ),
         ('<light name="l" type="sopt"/>', "unknown type `sopt` of light `l`; did you mean `spot`?"),
-        ("<model/>", "<model> lacks its name"),
+        ("<model/>", "<model> has no name"),
         ('<model name="m"/>', "model `m` has no link; add a link or make the model <static>"),
         ('<model name="m"><static>yes</static></model>', "<static> is `yes`; it must be true or false"),
         ('<model name="m"><pose>1 2 3</pose></model>', "<pose> is `1 2 3`; it must be 6 finite numbers"),
@@ -522,7 +522,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="l"/><joint name="j" type="fixed"><parent>world</parent></joint></model>',
-            "joint `j` lacks its <child>",
+            "joint `j` has no <child>",
         ),
         (
             """<model name="m"><link name="lid"/>
@@ -537,7 +537,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         (
             """<model name="m"><link name="l"/>
             <joint name="j" type="revolute"><parent>world</parent><child>l</child></joint></model>""",
-            "joint `j` lacks its <axis>",
+            "joint `j` has no <axis>",
         ),
         (
             """<model name="m"><link name="l"/></model>
@@ -560,8 +560,8 @@ def test_what_is_refused_is_named_with_its_place(tmp_path: Path, text: str, repo
         ("<heightmap><uri>a.png</uri></heightmap>", "<heightmap> cannot be simulated; model the ground as boxes"),
         ("<polyline/>", "<polyline> cannot be simulated; extrude it"),
         ("<mesh><uri>a.stl</uri><submesh><name>s</name></submesh></mesh>", "<submesh> of a collision is not read"),
-        ("<mesh/>", "<mesh> lacks its <uri>"),
-        ("<sphere/>", "<sphere> lacks its <radius>"),
+        ("<mesh/>", "<mesh> has no <uri>"),
+        ("<sphere/>", "<sphere> has no <radius>"),
         ("<sphere><radius>-1</radius></sphere>", "<radius> is -1; it must be greater than zero"),
         ("<box><size>1 0 1</size></box>", "<size> is `1 0 1`; every edge must be longer than zero"),
         ("<plane><normal>0 0 0</normal></plane>", "<normal> of <plane> is zero"),
@@ -622,7 +622,7 @@ def test_hostile_and_broken_files(tmp_path: Path, text: str, reported: str) -> N
     [
         ("<robot/>", "an SDF world starts with <sdf>"),
         ('<sdf version="1.6"/>', "an SDF world starts with <sdf>"),
-        ('<sdf><world name="w"/></sdf>', "<sdf> lacks its version"),
+        ('<sdf><world name="w"/></sdf>', "<sdf> has no version"),
         ('<sdf version="1.3"><world name="w"/></sdf>', "SDF 1.3 is not supported; supported versions are 1.4 to 1.11"),
         ('<sdf version="new"><world name="w"/></sdf>', "version `new` is not a version of SDF"),
     ],

@@ -164,7 +164,7 @@ def test_p3d_tells_poses_as_another_link_sees_them(brick) -> None:
     ("plugin", "reported"),
     [
         ("<bodyName>cornr</bodyName><topicName>t</topicName>", "`cornr`, which is not a link; did you mean `corner`?"),
-        ("<bodyName>base</bodyName>", "gazebo_ros_p3d lacks its <topicName>"),
+        ("<bodyName>base</bodyName>", "gazebo_ros_p3d has no <topicName>"),
         (
             "<bodyName>base</bodyName><topicName>t</topicName><frameName>bse</frameName>",
             "is `bse`; did you mean `base`?",

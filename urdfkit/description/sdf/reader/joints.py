@@ -45,7 +45,7 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
     pose = scope.place(raw_pose(element), text(element, "child"), child)
     axes = [_axis(context, axis, scope, child, pose) for axis in element.children if axis.tag in ("axis", "axis2")]
     if kind in ("revolute", "continuous", "prismatic", "screw", "universal", "revolute2") and not axes:
-        raise wrong(element, f"joint `{name}` lacks its <axis>")
+        raise wrong(element, f"joint `{name}` has no <axis>")
     return WorldJoint(
         name,
         kind,
@@ -61,7 +61,7 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
 def _link(joint: Element, tag: str, scope: Scope) -> str:
     child = joint.find(tag)
     if child is None or not child.text:
-        raise wrong(joint, f"joint `{joint.get('name')}` lacks its <{tag}>")
+        raise wrong(joint, f"joint `{joint.get('name')}` has no <{tag}>")
     return scope.link_of(child.text, child.origin.position)
 
 

@@ -143,7 +143,7 @@ def read_include(context: Context, element: Element) -> ReadEntity | None:
     note_unknown_elements(context, element)
     uri = element.find("uri")
     if uri is None:
-        raise wrong(element, "<include> lacks its <uri>")
+        raise wrong(element, "<include> has no <uri>")
     path = find_model(context, uri)
     called = text(element, "name")
     if path.suffix in (".urdf", ".xacro"):

@@ -84,7 +84,7 @@ class Context:
     def _version(self, root: Element) -> tuple[int, int]:
         written = root.get("version")
         if written is None:
-            raise wrong(root, f'<sdf> lacks its version: write <sdf version="1.{min(NEWEST[1], 9)}">')
+            raise wrong(root, f'<sdf> has no version: write <sdf version="1.{min(NEWEST[1], 9)}">')
         found = _VERSION.match(written.strip())
         if found is None:
             raise wrong(root, f"version `{written}` is not a version of SDF" + did_you_mean(written, ["1.6", "1.9"]))

@@ -78,7 +78,7 @@ def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | N
 def _geometry(context: Context, shape: Element) -> tuple[WorldGeometry, str] | None:
     element = shape.find("geometry")
     if element is None:
-        raise wrong(shape, f"<{shape.tag}> lacks its <geometry>")
+        raise wrong(shape, f"<{shape.tag}> has no <geometry>")
     note_unknown_elements(context, element)
     for child in element.children:
         if child.tag in _REFUSED:
@@ -152,7 +152,7 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
 
     uri = element.find("uri")
     if uri is None or not uri.text:
-        raise wrong(element, "<mesh> lacks its <uri>")
+        raise wrong(element, "<mesh> has no <uri>")
     if element.find("submesh") is not None:
         if shape.tag == "collision":
             raise wrong(element, "<submesh> of a collision is not read; save the part as a separate mesh")

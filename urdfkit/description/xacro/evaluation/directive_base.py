@@ -67,7 +67,7 @@ class Elements(Files):
         value = node.attributes.get(name)
         if value is None:
             self.at = (node, None)
-            raise self.placed(Failure("other", f"<{node.name}> lacks its attribute `{name}`", name=name))
+            raise self.placed(Failure("other", f"<{node.name}> has no attribute `{name}`", name=name))
         return value
 
     def _checked(self, node: Tag, required: tuple[str, ...], optional: tuple[str, ...]) -> list[Any]:

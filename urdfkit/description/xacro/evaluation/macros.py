@@ -92,8 +92,8 @@ class Calls(Elements):
             names = [str(macro.body.attributes.get("name", "")) for macro in self._stack if macro.body is not None]
             raise self.placed(recursive_macro(cycle(names)))
         if self._calls > MAX_MACRO_CALLS:
-            what = f"there are more than {MAX_MACRO_CALLS:,} calls; check for nested calls that multiply each other"
-            raise self.placed(Failure("too-many", f"with this call, {what}"))
+            what = f"this call exceeds the limit of {MAX_MACRO_CALLS:,} macro calls; check for nested macro calls"
+            raise self.placed(Failure("too-many", what))
         assert macro.body is not None
         body = macro.body.copy((Expansion(name, node.position), *node.chain), self.count)
         title = str(macro.body.attributes.get("name", ""))

@@ -21,8 +21,8 @@ class HardwareInterfaceUnknown(RobotRule):
     ## What it does
     Checks for ``<hardwareInterface>`` values that nearly match an interface of the hardware_interface package.
     Interfaces of other packages are accepted. If the robot uses gazebo_ros_control, transmissions that its default
-    hardware does not simulate are notes: those with several joints, and those with an interface other than position,
-    velocity or effort.
+    hardware does not simulate are reported as notes: those with several joints, and those with an interface other than
+    position, velocity or effort.
 
     ## Why is this bad?
     Loading fails with "No suitable hardware interface", and controllers for the joint do not start. `urdfkit sim`

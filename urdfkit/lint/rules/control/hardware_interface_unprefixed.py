@@ -6,7 +6,7 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class HardwareInterfaceUnprefixed(RobotRule):
-    """A hardware interface lacks its package prefix.
+    """A hardware interface has no package prefix.
 
     ## What it does
     Checks for interfaces such as ``EffortJointInterface`` without the prefix ``hardware_interface/``.
@@ -49,6 +49,6 @@ class HardwareInterfaceUnprefixed(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"hardware interface `{text}` lacks its package prefix; write `{qualified}`",
+                    f"hardware interface `{text}` has no package prefix; write `{qualified}`",
                     fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
                 )

@@ -19,8 +19,9 @@ class InterfaceLimits(RobotRule):
     ## What it does
     Compares ``<param name="min">`` and ``<param name="max">`` of the command interfaces ``position``, ``velocity`` and
     ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` that is not below its ``max``, and
-    values that appear to be in degrees, are warnings. Any other value beyond the limit of the joint is a note, because
-    the narrower limit still applies. An ``initial_value`` of the position beyond the limits of the joint is a warning.
+    values that appear to be in degrees, are reported as warnings. Any other value beyond the limit of the joint is
+    reported as a note, because the narrower limit still applies. An ``initial_value`` of the position outside the joint
+    limits is reported as a warning.
 
     ## Why is this bad?
     One of the two values is wrong. With ``min`` above ``max`` no command is accepted, and the effect of limits wider

@@ -26,8 +26,8 @@ class HardwareMismatch(RobotRule):
     for gazebo_ros2_control, ``gz_ros2_control/GazeboSimSystem`` for gz_ros2_control, and
     ``ign_ros2_control/IgnitionSystem`` for ign_ros2_control. The rule reports hardware of another plugin, and names
     that nearly match one of these or ``mock_components/GenericSystem``, also in branches of ``xacro:if`` that are not
-    expanded. Other hardware is a note if the robot has such a plugin, because its joints are not controlled in a
-    simulation.
+    expanded. Other hardware is reported as a note if the robot has such a plugin, because its joints are not controlled
+    in a simulation.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
     ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware. After Humble,

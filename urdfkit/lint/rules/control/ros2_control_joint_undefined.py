@@ -12,7 +12,7 @@ class Ros2ControlJointUndefined(RobotRule):
 
     ## What it does
     Compares the joints of ``<ros2_control>`` with the joints of the robot. A ``<command_interface>`` of a fixed joint
-    is a warning.
+    is reported as a warning.
 
     ## Why is this bad?
     The controller manager stops with "Joint … not found in URDF". Commands to a fixed joint have no effect, and Gazebo

@@ -60,9 +60,8 @@ class Ros2ControlMimic(RobotRule):
                     if master == name:
                         message = f"joint `{name}` of <ros2_control> mimics itself"
                     elif mimic is not None and mimic.joint != master and mimic.joint in joints:
-                        message = (
-                            f"joint `{name}` mimics `{master}` in <ros2_control>, but `{mimic.joint}` in the robot"
-                        )
+                        other = mimic.joint
+                        message = f"joint `{name}` mimics `{master}` in <ros2_control>, but `{other}` in its <mimic>"
                     elif master not in joints and not model.is_incomplete:
                         message = f"joint `{name}` of <ros2_control> mimics the undefined joint `{master}`"
                     if message:

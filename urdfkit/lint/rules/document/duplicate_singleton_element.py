@@ -15,8 +15,8 @@ class DuplicateSingletonElement(RobotRule):
     ## What it does
     Checks for a second ``<inertial>``, ``<mass>``, ``<inertia>``, ``<origin>``, ``<geometry>``, ``<axis>``, ``<limit>``
     … in the same element, and for a plugin parameter that is given twice with different values although the plugin
-    reads only one. A second plugin parameter is a warning, because no reader rejects it. A second material is a note,
-    because it changes only a colour.
+    reads only one. A second plugin parameter is reported as a warning, because no reader rejects it. A second material
+    is reported as a note, because it changes only a colour.
 
     ## Why is this bad?
     Readers differ: urdfdom and Gazebo use the first element, others the last, and MuJoCo rejects the file ("repeated

@@ -16,8 +16,8 @@ class QuaternionNotUnit(RobotRule):
     """A ``quat_xyzw`` is not a unit quaternion.
 
     ## What it does
-    Checks that the norm of ``quat_xyzw`` is 1 within 0.001, in robots of URDF 1.1 or later. A quaternion of zero is an
-    error.
+    Checks that the norm of ``quat_xyzw`` is 1 within 0.001, in robots of URDF 1.1 or later. A quaternion of zero is
+    reported as an error.
 
     ## Why is this bad?
     The numbers are in the wrong order, or were not copied from a quaternion. urdfdom, Pinocchio and urdfkit normalise

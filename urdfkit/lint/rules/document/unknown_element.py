@@ -26,7 +26,8 @@ class UnknownElement(RobotRule):
     ## What it does
     Checks the children of ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
     Elements with a prefix are accepted as extensions, except in place of the shape of a ``<geometry>``, where they are
-    notes. An element that resembles no URDF or SDF element is a note, because another program probably reads it.
+    reported as notes. An element that resembles no URDF or SDF element is reported as a note, because another program
+    probably reads it.
 
     The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
     their name nearly matches ``link``, ``joint`` or another known element. The same applies to ``<transmission>`` and

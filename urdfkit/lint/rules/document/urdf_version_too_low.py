@@ -12,7 +12,8 @@ class UrdfVersionTooLow(RobotRule):
     ## What it does
     Checks for ``quat_xyzw`` and ``<capsule>``, which need ``version="1.1"`` in ``<robot>``, and for limits of
     ``acceleration``, ``deceleration`` and ``jerk``, which need ``version="1.2"``. A robot without the attribute is URDF
-    1.0. The first use of each feature is reported. The limits are notes, because readers merely ignore them.
+    1.0. The first use of each feature is reported. The limits are reported as notes, because readers merely ignore
+    them.
 
     ## Why is this bad?
     Readers ignore attributes of a later version: without ``quat_xyzw`` the part has no rotation. urdfdom drops the

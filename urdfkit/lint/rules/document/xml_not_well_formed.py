@@ -16,7 +16,7 @@ class XmlNotWellFormed(FaultRule):
     because they can grow without bound or read other files.
 
     Bytes that are not UTF-8 (Latin-1, UTF-16) are reported even in comments and regardless of ``<?xml encoding=…?>``.
-    They are warnings if only urdfdom reads the file, because urdfdom does not decode it.
+    They are reported as warnings if only urdfdom reads the file, because urdfdom does not decode it.
 
     ## Why is this bad?
     No reader of the description gets past the error. xacro reports the line, but not the name of an included file.

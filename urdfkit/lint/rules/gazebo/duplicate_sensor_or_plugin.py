@@ -13,8 +13,8 @@ class DuplicateSensorOrPlugin(RobotRule):
 
     ## What it does
     Compares the names of the sensors of each link (an error) and of plugins in the same scope (a warning). Each sensor
-    is a separate scope, so plugins in different sensors can share a name. Equal names of gazebo_ros plugins are a note,
-    because in ROS 2 the name of the plugin is the name of its node.
+    is a separate scope, so plugins in different sensors can share a name. Equal names of gazebo_ros plugins are
+    reported as a note, because in ROS 2 the name of the plugin is the name of its node.
 
     ## Why is this bad?
     SDF requires unique names: Gazebo rejects the model, or both publish on the same topic.

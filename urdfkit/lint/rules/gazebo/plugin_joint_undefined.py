@@ -20,7 +20,7 @@ class PluginJointUndefined(RobotRule):
     ## What it does
     Checks the joint parameters of known plugins (differential drive, skid steer, joint state publisher, joint
     controllers), including the default names of missing parameters. A joint that a drive turns must not be fixed. A
-    joint that one plugin names twice is a warning.
+    joint that one plugin names twice is reported as a warning.
 
     ## Why is this bad?
     The plugin does nothing, or crashes the simulator.

@@ -12,7 +12,8 @@ class ColladaUpAxis(RobotRule):
     """A COLLADA mesh has an up axis other than z, or a unit other than the metre.
 
     ## What it does
-    Reads ``<up_axis>`` and ``<unit>`` at the beginning of COLLADA files. A unit other than the metre is a note.
+    Reads ``<up_axis>`` and ``<unit>`` at the beginning of COLLADA files. A unit other than the metre is reported as a
+    note.
 
     ## Why is this bad?
     RViz and Gazebo do not rotate the mesh, but other readers do. The mesh is upright in one program and lies on its

@@ -18,7 +18,7 @@ class MeshFileMissing(RobotRule):
     ## What it does
     Resolves the ``filename`` of every mesh (``package://``, ``model://``, ``file://`` and paths) and checks that the
     file exists. The comparison is case-sensitive, and the message suggests the nearest name. Absolute paths of other
-    machines, and names with expressions, are notes, because a simulation with urdfkit ignores such meshes.
+    machines, and names with expressions, are reported as notes, because a simulation with urdfkit ignores such meshes.
 
     ## Why is this bad?
     check_urdf does not check mesh files. Viewers show nothing, and simulators stop. A name in the wrong case works only

@@ -17,7 +17,7 @@ class MeshPackageUnknown(RobotRule):
     ## Why is this bad?
     The robot is shown without its meshes. The package name may be misspelt, or the package may be missing on this
     machine only. In the latter case, pass its folder with ``--package-path``. A name that differs by one letter from a
-    package of the workspace or a common package is an error.
+    package of the workspace or a common package is reported as an error.
 
     ## Example
     ```diff

@@ -25,8 +25,9 @@ class NonpositivePrimitive(RobotRule):
 
     ## What it does
     Checks for sizes, radii and lengths that are zero or negative, and for zeros in the scale of a mesh; a negative
-    scale mirrors the mesh. A size of zero is a warning. A collision sphere with a radius of zero is a note, because
-    exporters write such spheres for contact points. With ``--target mujoco``, both are errors.
+    scale mirrors the mesh. A size of zero is reported as a warning. A collision sphere with a radius of zero is
+    reported as a note, because exporters write such spheres for contact points. With ``--target mujoco``, both are
+    reported as errors.
 
     ## Why is this bad?
     MuJoCo and physics engines reject the shape ("size must be positive"); elsewhere it is invisible and does not

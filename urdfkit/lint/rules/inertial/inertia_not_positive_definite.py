@@ -16,9 +16,9 @@ class InertiaNotPositiveDefinite(RobotRule):
 
     ## What it does
     Computes the principal moments (eigenvalues) of the inertia tensor of every link. Tensors of zeros are reported by
-    I504. The tensor of a thin rod is a warning, because only MuJoCo rejects it. The tensor of a link on a fixed joint
-    is a warning, because readers merge the link with its parent. A link that is fixed to a body with more than twenty
-    times its mass and inertia is a note.
+    I504. The tensor of a thin rod is reported as a warning, because only MuJoCo rejects it. The tensor of a link on a
+    fixed joint is reported as a warning, because readers merge the link with its parent. A link that is fixed to a body
+    with more than twenty times its mass and inertia is reported as a note.
 
     ## Why is this bad?
     A body with mass and size has a positive moment of inertia about every axis. check_urdf and Pinocchio accept the

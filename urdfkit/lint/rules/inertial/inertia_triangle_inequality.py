@@ -19,9 +19,9 @@ class InertiaTriangleInequality(RobotRule):
 
     ## What it does
     Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C. Rounded numbers cause small
-    violations: up to 0.0001 C they are notes, and up to 0.001 C they are warnings. The tensor of a link on a fixed
-    joint is a warning, because readers merge the link with its parent. A link that is fixed to a body with more than
-    twenty times its mass and inertia is a note.
+    violations: up to 0.0001 C they are reported as notes, and up to 0.001 C they are reported as warnings. The tensor
+    of a link on a fixed joint is reported as a warning, because readers merge the link with its parent. A link that is
+    fixed to a body with more than twenty times its mass and inertia is reported as a note.
 
     ## Why is this bad?
     Every physical body satisfies the inequality: A + B - C is twice the second moment of mass along the third axis

@@ -18,7 +18,7 @@ class SrdfDuplicate(RobotRule):
     ## What it does
     Reports groups, states of a group, end effectors, virtual and passive joints with the same name, two virtual joints
     of one link, and names that occur twice in a group. A pair of links that is disabled twice, and two SRDF files for
-    one robot in the folder ``config``, are notes. A pair of a link with itself is a warning.
+    one robot in the folder ``config``, are reported as notes. A pair of a link with itself is reported as a warning.
 
     ## Why is this bad?
     MoveIt uses one of the definitions: "A group named 'arm' already exists. Not adding."

@@ -24,7 +24,7 @@ class SrdfStateInvalid(RobotRule):
 
     ## What it does
     Compares the values of each ``<group_state>`` with the limits and types of the joints, and its joints with the
-    active joints of its group. A value that MoveIt cannot use is an error.
+    active joints of its group. A value that MoveIt cannot use is reported as an error.
 
     ## Why is this bad?
     MoveIt rejects a goal beyond the limits, and ignores values for joints of other groups.

@@ -40,8 +40,8 @@ class BuildFileInconsistent(RobotRule):
     ``install`` or a test names. Also reports folders and scripts that launch files use but that are not installed, or
     are installed in the wrong place.
 
-    In setup.py, checks name, version, ``packages``, ``data_files`` and the modules of console scripts; in setup.cfg,
-    the folder of the scripts.
+    Checks the name, the version, ``packages``, ``data_files`` and the modules of console scripts in setup.py, and the
+    script folders in setup.cfg.
 
     ## Why is this bad?
     The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".

@@ -13,7 +13,7 @@ class ControllerJointUndefined(RobotRule):
     controllers, and the joints with gains of gazebo_ros_control, with the joints of the robot. Nothing is reported if
     another description in these packages may define the joint, or if other arguments or conditions may do so. A file
     belongs to another robot if most of its joints do not exist in this one; its joints are then reported only if they
-    are misspelt. A misspelt joint is an error.
+    are misspelt. A misspelt joint is reported as an error.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.

@@ -25,9 +25,10 @@ class ControllerSettingsMisspelt(RobotRule):
     - a misspelt or missing key ``ros__parameters`` (with two underscores)
     - tabs
 
-    Misspelt parameters and names of controller sections are warnings. Types that a package of the workspace exports are
-    accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo plugin of the robot loads the
-    controller, because a simulation ignores it. Unknown parameters of such a controller are notes.
+    Misspelt parameters and names of controller sections are reported as warnings. Types that a package of the workspace
+    exports are accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo plugin of the
+    robot loads the controller, because a simulation ignores it. Unknown parameters of such a controller are reported as
+    notes.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown

@@ -20,9 +20,10 @@ class LaunchPathMissing(RobotRule):
     including launch file passes. Python launch files are parsed, not executed, so computed paths are not checked, nor
     are paths that are only tested for existence. Gazebo Classic needs the path of its world, not only the name.
 
-    Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. So are maps,
-    recordings and files that git ignores, which users and programs create, unless a file with a similar name exists.
-    Missing folders and RViz configurations are warnings, because the launch continues without them.
+    Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. Maps,
+    recordings and files that git ignores are also accepted, because users and programs create them, unless a file with
+    a similar name exists. Missing folders and RViz configurations are reported as warnings, because the launch
+    continues without them.
 
     ## Why is this bad?
     The launch fails, or starts without the robot, the world or the parameters.

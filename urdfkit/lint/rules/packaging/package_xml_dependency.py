@@ -49,9 +49,10 @@ class PackageXmlDependency(RobotRule):
     - packages of the plugins of Nav2, of MoveIt and of the Gazebo plugin that runs controllers, if the package starts
       Gazebo or depends on other packages of this kind
 
-    A build or test dependency is not sufficient for launch files. A metapackage, such as ``navigation2``, stands for
-    the packages that it depends on. A name that misspells a dependency, a package of the workspace or a common package
-    by one letter is an error at each place. Every other package is reported once.
+    A build or test dependency is not sufficient for launch files. A dependency on a metapackage, such as
+    ``navigation2``, includes the packages that it depends on. A name that misspells a dependency, a package of the
+    workspace or a common package by one letter is reported as an error wherever it occurs. Every other package is
+    reported once.
 
     Test folders, optional launch files of the MoveIt Setup Assistant, and dependencies that are commented out in
     package.xml are not checked.

@@ -33,11 +33,11 @@ class JointContradictsName(RobotRule):
     """The motion of a joint contradicts its name.
 
     ## What it does
-    Compares the type and the axis of joints with the words in their names, with every joint at zero. A ``slide``,
-    ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint moves along a line; a sliding ``lift``,
-    ``elevator`` or ``fork`` moves up and down, and a ``lift`` does not turn about the vertical. ``pan``, ``yaw``,
-    ``slew`` and ``turntable`` joints turn about the vertical; ``tilt`` and ``pitch`` joints and knees do not. Hands,
-    arms, wheels and rotors are not checked, because they may have any direction at zero.
+    Compares the type and the axis of joints with the words in their names, with all joints at position zero. A
+    ``slide``, ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint moves along a line; a sliding ``lift``,
+    ``elevator`` or ``fork`` moves up and down, and a ``lift`` does not rotate about a vertical axis. ``pan``, ``yaw``,
+    ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt`` and ``pitch`` joints and knees do not.
+    Hands, arms, wheels and rotors are not checked, because they may have any direction at zero.
 
     ## Why is this bad?
     The part moves in an unexpected direction: the camera rolls instead of looking to the side, or the lift swings
@@ -95,11 +95,11 @@ def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:
     is_vertical, is_horizontal = abs(axis[2]) > _ALONG, abs(axis[2]) < _ACROSS
     element = joint.element.find("axis") or joint.element
     if about_vertical is not None and turns and is_horizontal:
-        return f"joint `{joint.name}` turns about a horizontal axis, not about the vertical", element, "xyz"
+        return f"joint `{joint.name}` rotates about a horizontal axis instead of a vertical one", element, "xyz"
     if about_horizontal is not None and turns and is_vertical:
-        return f"joint `{joint.name}` turns about the vertical, not about a horizontal axis", element, "xyz"
+        return f"joint `{joint.name}` rotates about a vertical axis instead of a horizontal one", element, "xyz"
     if lifts is not None and turns and is_vertical:
-        return f"joint `{joint.name}` turns about the vertical, which lifts nothing", element, "xyz"
+        return f"joint `{joint.name}` rotates about a vertical axis, so it cannot lift", element, "xyz"
     if lifts is not None and joint.type == "prismatic" and is_horizontal:
-        return f"joint `{joint.name}` slides horizontally, which lifts nothing", element, "xyz"
+        return f"joint `{joint.name}` slides horizontally, so it cannot lift", element, "xyz"
     return None

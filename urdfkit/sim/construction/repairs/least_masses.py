@@ -38,8 +38,8 @@ ALONE = 1.0, 0.1
 def with_least_masses(robot: Robot, *, floating: bool) -> tuple[Robot, list[Repair]]:
     """Return a robot whose moving bodies all have a mass, and the repairs.
 
-    A robot that can be simulated, because its links without mass carry other links, stays unchanged. So does a robot
-    with a negative mass, which no repair replaces.
+    A robot that can be simulated, because its links without mass carry other links, stays unchanged. A robot with a
+    negative mass also stays unchanged, because no repair replaces it.
 
     Args:
         robot: the robot, with estimated masses where links have shapes.

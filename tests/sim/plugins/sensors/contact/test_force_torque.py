@@ -174,8 +174,8 @@ def test_noise_is_on_all_six(arm) -> None:
     ("plugin", "sensor", "joint", "reported"),
     [
         (ROS_1, "", "sholder", "no joint `sholder` in robot `arm`; did you mean `shoulder`?"),
-        (ROS_1.replace("<topicName>ft</topicName>", ""), "", "wrist", "gazebo_ros_ft_sensor lacks its <topicName>"),
-        (ROS_1.replace("<jointName>{joint}</jointName>", ""), "", "wrist", "lacks its <jointName>"),
+        (ROS_1.replace("<topicName>ft</topicName>", ""), "", "wrist", "gazebo_ros_ft_sensor has no <topicName>"),
+        (ROS_1.replace("<jointName>{joint}</jointName>", ""), "", "wrist", "has no <jointName>"),
         (ROS_2.replace("joint_name", "body_name"), "", "hand", "on a link (<body_name>) is not simulated"),
         ("", GZ.format(""), "hand", "must be in the <gazebo reference=…> of a joint; `hand` is a link"),
         ("", GZ.format("<force_torque><frame>chidl</frame></force_torque>"), "wrist", "did you mean `child`?"),

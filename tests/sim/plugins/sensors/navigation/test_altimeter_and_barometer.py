@@ -238,7 +238,7 @@ def test_hectors_sonar_is_the_nearest_of_its_rays(post) -> None:
         ("", hector("gps", "<bodyName>bse</bodyName>"), "`bse`, which is not a link; did you mean `base`?"),
         ("", hector("gps", "<drift>-1</drift>"), "<drift> is `-1`; it must be 0 or greater"),
         ("", hector("gps", "<drift>1 2</drift>"), "<drift> is `1 2`; it must be 3 finite numbers"),
-        ("", '<plugin name="p" filename="libgazebo_ros_imu.so"/>', "gazebo_ros_imu lacks its <bodyName>"),
+        ("", '<plugin name="p" filename="libgazebo_ros_imu.so"/>', "gazebo_ros_imu has no <bodyName>"),
         (bare("logical_camera", "<logical_camera><near>2</near></logical_camera>"), "", "2 m to 1 m, is empty"),
     ],
 )  # fmt: skip

@@ -181,7 +181,7 @@ class GzTouch(Sensor):
         for meaning in ("target", "namespace", "time"):
             if not read.text(meaning):
                 raise SimulationError(
-                    f"the touch plugin lacks its <{read.tag(meaning)}>", position=self.plugin.element.origin.position
+                    f"the touch plugin has no <{read.tag(meaning)}>", position=self.plugin.element.origin.position
                 )
         assert setup.surroundings is not None
         sensors = [

@@ -180,9 +180,9 @@ class JointForceTorque(ForceTorque):
                 position=read.place("body"),
             )
         if not read.text("joint"):
-            raise SimulationError(f"gazebo_ros_ft_sensor lacks its <{read.tag('joint')}>", position=place)
+            raise SimulationError(f"gazebo_ros_ft_sensor has no <{read.tag('joint')}>", position=place)
         if self.spec.generation == "ros1" and not read.text("topic"):
-            raise SimulationError("gazebo_ros_ft_sensor lacks its <topicName>", position=place)
+            raise SimulationError("gazebo_ros_ft_sensor has no <topicName>", position=place)
         self._read_joint(setup, read.text("joint"), read.place("joint"))
         self.rate = rate_of(None, read)
         self.frame = self._child

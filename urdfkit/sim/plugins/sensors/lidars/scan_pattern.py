@@ -69,7 +69,7 @@ def scan_of(sensor: SensorTag) -> Scan:
     lidar = sensor.element.find("ray") or sensor.element.find("lidar")
     if lidar is None:
         tag = "lidar" if "lidar" in (sensor.type or "") else "ray"
-        raise SimulationError(f"a lidar lacks its <{tag}>", position=sensor.element.origin.position)
+        raise SimulationError(f"a lidar has no <{tag}>", position=sensor.element.origin.position)
     refuse(senseless_scan(lidar))
     pattern, reach = lidar.find("scan"), lidar.find("range")
     samples, angle_min, angle_max = _fan(None if pattern is None else pattern.find("horizontal"), 640)

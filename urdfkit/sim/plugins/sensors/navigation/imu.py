@@ -184,7 +184,7 @@ class BodyImu(PlainImu):
     def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
         if not read.text("body"):
             raise SimulationError(
-                f"gazebo_ros_imu lacks its <{read.tag('body')}>", position=self.plugin.element.origin.position
+                f"gazebo_ros_imu has no <{read.tag('body')}>", position=self.plugin.element.origin.position
             )
         self._gravity = np.zeros(3)
         deviation = read.number("gaussian_noise")

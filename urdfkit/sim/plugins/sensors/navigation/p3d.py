@@ -49,7 +49,7 @@ class P3d(Sensor):
             )
         name = read.text("topic") if self.spec.generation == "ros1" else "odom"
         if not name:
-            raise SimulationError("gazebo_ros_p3d lacks its <topicName>", position=self.plugin.element.origin.position)
+            raise SimulationError("gazebo_ros_p3d has no <topicName>", position=self.plugin.element.origin.position)
         self.name = self.plugin.name or "p3d"
         self.rate = read.number("update_rate")
         self._offset = np.array(read.vector("xyz_offset", 3))
