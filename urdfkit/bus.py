@@ -1,7 +1,5 @@
 """Bus: named, typed topics inside one process. No threads of its own: callbacks run in the publisher's thread."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from threading import Lock

@@ -4,8 +4,6 @@ numpy's ``@``, ``dot``, ``linalg.norm`` of one vector, ``linalg.inv`` and ``lina
 another order, or with fused multiply-add, depending on the processor. ``einsum`` does not.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A place in a file: what errors and findings point at."""
 
-from __future__ import annotations
-
 from urdfkit.record import record
 
 

@@ -4,8 +4,6 @@ Its modules clone a repository when they are imported, so their constants are re
 Source: robot_descriptions 3.3.0, _cache.py and _xacro.py.
 """
 
-from __future__ import annotations
-
 import ast
 import os
 from importlib.util import find_spec

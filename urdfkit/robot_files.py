@@ -3,8 +3,6 @@
 The first tag distinguishes a robot from a file of macros.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

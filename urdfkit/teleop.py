@@ -3,8 +3,6 @@
 Pure data and two small classes; no messages, no terminal, no browser. A `Motion` is linear first, in the base frame.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from math import isfinite

@@ -1,7 +1,5 @@
 """The page of a robot with both modes: the viewer, and a simulation that starts from it and returns to it."""
 
-from __future__ import annotations
-
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from threading import Event

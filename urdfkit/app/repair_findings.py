@@ -1,7 +1,5 @@
 """Repairs on the page and in the terminal: rows of the findings panel, and one line for each repair."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Picture of a robot without a browser: its visuals from a given direction, rendered by ray casting."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import cos, radians, sin, tan
 

@@ -1,7 +1,5 @@
 """Termination by signals: undo unfinished work as after Ctrl-C, then exit with the signal's exit code."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from collections.abc import Iterator

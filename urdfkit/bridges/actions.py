@@ -3,8 +3,6 @@
 https://wiki.ros.org/actionlib/DetailedDescription, https://design.ros2.org/articles/actions.html
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -4,8 +4,6 @@ A bridge uses the network in a thread of its own. Only the thread of the simulat
 threads add calls to the queue, and that thread takes them before its next steps.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterator
 from threading import Event, Lock

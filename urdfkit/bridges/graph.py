@@ -1,7 +1,5 @@
 """Graph: topics and services of a simulation, for peers that a server serves in a thread of its own."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Mapping
 from threading import Lock

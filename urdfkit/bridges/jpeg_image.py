@@ -1,7 +1,5 @@
 """Images as JPEG, as image_transport's ``compressed`` transport publishes them."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Messages as JSON, as rosbridge defines it: bytes in base64, null for numbers that JSON lacks."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 import json

@@ -1,7 +1,5 @@
 """MessageBuilder: builds messages that take long, such as images, while the simulation continues."""
 
-from __future__ import annotations
-
 import sys
 from collections import OrderedDict
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Options of a recording: selection of topics, compression, splitting into several files."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """Service: a function of the simulation that peers can call."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

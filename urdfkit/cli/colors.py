@@ -1,7 +1,5 @@
 """Colors of the output of commands in a terminal."""
 
-from __future__ import annotations
-
 import os
 import sys
 

@@ -1,7 +1,5 @@
 """``urdfkit completion SHELL``: completion of commands, options and names on the command line, by argcomplete."""
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """``urdfkit expand``: xacro to URDF, without ROS installed."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``urdfkit format``: format URDF and xacro files without a change of the robot."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Iterator

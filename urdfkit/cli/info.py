@@ -1,7 +1,5 @@
 """``urdfkit info``: print the links, joints, mass, sensors and drives of a robot."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

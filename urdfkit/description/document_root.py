@@ -1,7 +1,5 @@
 """The document element of a robot description, and the formats that other document elements belong to."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import ModelError, did_you_mean
 

@@ -1,7 +1,5 @@
 """Hardware of a robot that a simulation does not run: the message, and the xacro arguments that select another."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.plugins import match

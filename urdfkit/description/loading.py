@@ -1,7 +1,5 @@
 """load: the strict reader, which raises the most important error of a description with its position."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path

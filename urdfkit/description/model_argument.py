@@ -1,7 +1,5 @@
 """The argument of the functions that load a robot: a path, a name or a loaded robot, as a file and its arguments."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path

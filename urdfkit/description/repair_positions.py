@@ -1,7 +1,5 @@
 """Positions of repairs: the lines and columns in which the linter reports the same defects."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Structure of a robot: the defects that keep its links from being one valid tree, and a robot without them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 

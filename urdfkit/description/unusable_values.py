@@ -1,7 +1,5 @@
 """Defects of a robot's structure, and the values of its elements that no reader can use."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from urdfkit.defect_message import with_effect

@@ -1,7 +1,5 @@
 """Singular values of a Jacobian, and the direction of motion that a chain loses in a singular configuration."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """TorchChain: the poses of a chain as differentiable tensors of PyTorch, on the processor or a GPU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Names of a robot's independent variables and frames, and the errors for any other name."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 
 from urdfkit.defect_message import Suggestion

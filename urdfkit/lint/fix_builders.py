@@ -4,8 +4,6 @@ Each function returns None if the source text differs from the expanded text, be
 its value.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 

@@ -4,8 +4,6 @@ Rules come in three layers: `SourceRule` checks the text of each file, `FaultRul
 checks the expanded robot. All rules yield findings at a position in the source text.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, ClassVar, Literal
 

@@ -1,7 +1,5 @@
 """Checks of COLLADA files that their reader lacks: units, and rejection of malicious files."""
 
-from __future__ import annotations
-
 import re
 from xml.etree import ElementTree
 

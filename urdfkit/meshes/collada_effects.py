@@ -1,7 +1,5 @@
 """Opacity and emission of COLLADA effects; trimesh reads only the fourth number of ``<transparent>``."""
 
-from __future__ import annotations
-
 from typing import Any
 from xml.etree import ElementTree
 

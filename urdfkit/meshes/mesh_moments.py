@@ -1,7 +1,5 @@
 """Volume moments of a mesh, summed over the tetrahedra of its triangles."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

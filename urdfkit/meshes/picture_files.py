@@ -1,7 +1,5 @@
 """Images that mesh files refer to: their names, and the places where an image is searched."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

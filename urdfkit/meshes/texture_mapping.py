@@ -4,8 +4,6 @@ A solid becomes a mesh. The image is upright on the sides of a box, and has x to
 wrapped once round a cylinder, whose ends show circles of the image. On a sphere it is an equirectangular map.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

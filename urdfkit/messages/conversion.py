@@ -1,7 +1,5 @@
 """Conversion of messages between two sets of types, such as those of ROS 1 and ROS 2, by the names of their fields."""
 
-from __future__ import annotations
-
 import struct
 from array import array
 from dataclasses import fields, is_dataclass, replace

@@ -1,7 +1,5 @@
 """ServerThread: an HTTP server of tornado in a thread of its own."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import threading

@@ -1,7 +1,5 @@
 """Frames of a WebSocket server; RFC 6455, section 5.2."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Sizes of placeholders: estimates from the other shapes of a link, its inertia and its neighbours."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Placeholders: boxes in place of shapes that cannot be shown, with an estimated size."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Geometries with their colours and textures as ``trimesh.Trimesh``."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

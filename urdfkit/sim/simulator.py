@@ -1,7 +1,5 @@
 """Simulator: load, step, run, pause, reset; the whole loop on one screen."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from math import isfinite

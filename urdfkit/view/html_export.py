@@ -1,7 +1,5 @@
 """Export of the page to one HTML file with all its modules and messages, which opens without a server."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import json

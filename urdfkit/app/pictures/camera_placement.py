@@ -1,7 +1,5 @@
 """Placement of the camera of a picture: a direction, and the distance at which everything is in the image."""
 
-from __future__ import annotations
-
 from math import cos, pi, radians, sin, tan
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Animated pictures and videos of a robot: one turn of the camera, or each joint through its range."""
 
-from __future__ import annotations
-
 import io
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """A studio for pictures of a robot: soft light from a dome, a sun, and a floor that shows only shadows."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 from math import pi, sqrt

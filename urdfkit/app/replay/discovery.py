@@ -1,7 +1,5 @@
 """Discovery of a graph of ROS 2: nodes find each other one after the other, on a busy machine for several seconds."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

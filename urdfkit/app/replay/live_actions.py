@@ -1,7 +1,5 @@
 """Actions of a live graph for the command ``action``: of actionlib on ROS 1, of rclpy, and of a server of rosbridge."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Page of a live robot: its state on a graph of ROS, and commands of the page to it."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Topics of a live graph on a bus: a topic is received while the bus has a subscriber to it."""
 
-from __future__ import annotations
-
 import itertools
 import time
 from collections.abc import Callable, Collection

@@ -1,7 +1,5 @@
 """Start the page of a live robot."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

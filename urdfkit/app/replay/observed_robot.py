@@ -1,7 +1,5 @@
 """Motion of a robot by its messages, of a recording or of a live robot."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

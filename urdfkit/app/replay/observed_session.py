@@ -1,7 +1,5 @@
 """Page of a robot that is observed, in a recording or live: the robot, all topics, scans and images."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Frames of a recording: the transforms of ``/tf`` and ``/tf_static``, at any time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

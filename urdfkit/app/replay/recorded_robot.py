@@ -1,7 +1,5 @@
 """Motion of a robot in a recording."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

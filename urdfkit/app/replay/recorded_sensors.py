@@ -1,7 +1,5 @@
 """Scans, point clouds and images of a recording or live robot on the page."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Values of a recording over time: transforms of frames, joint positions, and odometry."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Page of a recording: the robot as it was recorded, all topics, scans and images, and the controls of time."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from threading import Event

@@ -1,7 +1,5 @@
 """Show a recording on a page: as a context for the command."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager

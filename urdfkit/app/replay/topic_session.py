@@ -1,7 +1,5 @@
 """Topics, services and actions of a live graph for commands, as if they were those of a simulation."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """``sim run --save-image``: write the last image of a topic as PNG."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Initial scene: the robot in its initial pose, on the page while the engine is compiled."""
 
-from __future__ import annotations
-
 from urdfkit.description import Robot
 from urdfkit.description.sdf import World
 from urdfkit.kinematics import Kinematics

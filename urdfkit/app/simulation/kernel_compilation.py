@@ -1,7 +1,5 @@
 """Compile the physics kernels if they are not cached, and announce it."""
 
-from __future__ import annotations
-
 from typing import TextIO
 
 

@@ -1,7 +1,5 @@
 """Progress of long operations before a simulation starts, in the terminal and on the page."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager

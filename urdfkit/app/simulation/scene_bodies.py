@@ -1,7 +1,5 @@
 """Scene of the page: robots and bodies of the world; only added and removed bodies are sent again."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Start a simulation that is driven from its page: as a handle for scripts and notebooks, or in a `with` block."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Motion of a simulated robot along a trajectory: through the controllers of the joints, or directly."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Metrics of a run: expressions of the final state, and of the whole run by `highest`, `lowest` and `mean`."""
 
-from __future__ import annotations
-
 import ast
 import math
 import re

@@ -4,8 +4,6 @@ A parameter changes the options before the run (``cmd.vx``, ``spawn.x``, ``dt``,
 (``JOINT.damping``), or the simulator before its first step (``LINK.mass``, ``LINK.mu``, ``JOINT.p``).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Plots of a sweep: each metric over each parameter."""
 
-from __future__ import annotations
-
 import io
 import math
 import re

@@ -1,7 +1,5 @@
 """Results of a sweep: a table of all runs, as CSV and Parquet, and a summary with a row for each combination."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

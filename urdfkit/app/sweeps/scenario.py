@@ -1,7 +1,5 @@
 """What all runs of a sweep share, and one run of it: this is what workers receive and do."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """sweep: simulate a robot with many combinations of parameters."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence

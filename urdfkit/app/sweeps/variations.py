@@ -1,7 +1,5 @@
 """Values of the parameters of a sweep, and the runs that combine them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

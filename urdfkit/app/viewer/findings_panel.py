@@ -1,7 +1,5 @@
 """Lint findings in the viewer: source lines, page of the rule, and the fix."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Inverse kinematics for the page: joint positions that place a link at a pose, and the motions lost there."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from threading import Thread

@@ -1,7 +1,5 @@
 """Maps of reach for the page: as a message, and computed in a thread on request."""
 
-from __future__ import annotations
-
 import base64
 from threading import Thread
 from typing import Any

@@ -1,7 +1,5 @@
 """Session of the viewer: one robot on the page, whose joints, findings and files it follows."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Start the viewer: as a handle for scripts and notebooks, in a `with` block for the command, or as a file."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Files that clients fetch to draw a robot: meshes and textures in packages."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """FoxgloveServer: server of the Foxglove protocol for one simulation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from pathlib import Path
 

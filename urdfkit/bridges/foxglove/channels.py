@@ -1,7 +1,5 @@
 """Numbers of topics and services, the same for all clients of a server."""
 
-from __future__ import annotations
-
 import secrets
 
 from urdfkit.bridges.graph import Graph

@@ -1,7 +1,5 @@
 """Messages in the encodings of clients, CDR and JSON, and the definitions of their types."""
 
-from __future__ import annotations
-
 import json
 import struct
 from functools import cache

@@ -3,8 +3,6 @@
 https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md
 """
 
-from __future__ import annotations
-
 import struct
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Text frames of the server: its capabilities, channels, services and parameters."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping
 from typing import Any

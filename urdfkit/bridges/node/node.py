@@ -1,7 +1,5 @@
 """Node: interface of a ROS 1 or ROS 2 node to bridges and commands."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable

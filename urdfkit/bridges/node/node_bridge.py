@@ -1,7 +1,5 @@
 """NodeBridge: the topics of a simulation on the graph of ROS, and the commands of its nodes in the simulation."""
 
-from __future__ import annotations
-
 import re
 import time
 from collections.abc import Callable, Mapping

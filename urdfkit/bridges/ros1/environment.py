@@ -1,7 +1,5 @@
 """Variables of ROS 1: the address of the master, and the address by which other nodes reach this one."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from urllib.parse import urlsplit

@@ -3,8 +3,6 @@
 https://wiki.ros.org/ROS/Slave_API
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol

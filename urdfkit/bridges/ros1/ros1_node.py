@@ -1,7 +1,5 @@
 """ROS 1 node: publishers, subscribers and services that a master announces."""
 
-from __future__ import annotations
-
 import socket
 from collections.abc import Callable, Mapping
 from contextlib import suppress

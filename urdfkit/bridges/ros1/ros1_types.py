@@ -4,8 +4,6 @@ The definitions are those of Noetic where rosbags has them, else ours, in the no
 by the names of their fields: some are upper case in ROS 1 (``CameraInfo.K``), and headers have a number ``seq``.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from hashlib import md5
 from typing import Any, NamedTuple

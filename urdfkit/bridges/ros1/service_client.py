@@ -1,7 +1,5 @@
 """Calls of ROS 1 services by TCPROS."""
 
-from __future__ import annotations
-
 import socket
 from urllib.parse import urlsplit
 

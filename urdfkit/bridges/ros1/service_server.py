@@ -1,7 +1,5 @@
 """ROS 1 services: one connection carries requests and responses in turns."""
 
-from __future__ import annotations
-
 import socket
 from collections.abc import Callable
 from queue import Queue

@@ -3,8 +3,6 @@
 https://wiki.ros.org/ROS/TCPROS, https://wiki.ros.org/ROS/Connection%20Header
 """
 
-from __future__ import annotations
-
 import socket
 import struct
 from collections.abc import Mapping

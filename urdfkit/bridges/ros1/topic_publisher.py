@@ -1,7 +1,5 @@
 """TopicPublisher: one topic that this node publishes, with a queue and a thread for each subscriber."""
 
-from __future__ import annotations
-
 import socket
 from collections import deque
 from contextlib import suppress

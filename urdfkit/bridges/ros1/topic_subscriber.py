@@ -1,7 +1,5 @@
 """TopicSubscriber: one topic that this node receives, with a thread for each publisher."""
 
-from __future__ import annotations
-
 import socket
 from collections.abc import Callable, Sequence
 from contextlib import suppress

@@ -3,8 +3,6 @@
 https://wiki.ros.org/ROS/Master_API, https://wiki.ros.org/ROS/Slave_API
 """
 
-from __future__ import annotations
-
 import http.client
 from socketserver import ThreadingMixIn
 from typing import Any

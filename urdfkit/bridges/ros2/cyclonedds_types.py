@@ -1,7 +1,5 @@
 """Types of messages for Cyclone DDS, from rosbags' definitions, named as ROS 2 names them."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 from typing import Any

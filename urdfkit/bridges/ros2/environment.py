@@ -1,7 +1,5 @@
 """Variables of ROS 2: the domain, how far discovery reaches, and the transports of Fast DDS."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, MutableMapping
 from importlib.util import find_spec

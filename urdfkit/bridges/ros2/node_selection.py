@@ -1,7 +1,5 @@
 """Choice of the library of a node: rclpy, of a sourced ROS or from PyPI, else Cyclone DDS."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from importlib.util import find_spec
 

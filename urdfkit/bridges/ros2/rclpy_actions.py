@@ -1,7 +1,5 @@
 """Actions over rclpy: a server whose goals the simulation executes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from threading import Lock
 from typing import Any

@@ -1,7 +1,5 @@
 """Messages of rclpy from those of urdfkit, by the names of their fields: versions of ROS packages differ in these."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

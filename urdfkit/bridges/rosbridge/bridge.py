@@ -1,7 +1,5 @@
 """Rosbridge: server of the rosbridge protocol for one simulation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from urdfkit.bridges.graph import Graph

@@ -1,7 +1,5 @@
 """CBOR of messages (RFC 8949), with typed arrays (RFC 8746), as rosbridge writes it."""
 
-from __future__ import annotations
-
 import struct
 from typing import Any
 

@@ -3,8 +3,6 @@
 https://github.com/RobotWebTools/rosbridge_suite/blob/ros2/ROSBRIDGE_PROTOCOL.md
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from typing import Any

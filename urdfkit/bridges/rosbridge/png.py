@@ -1,7 +1,5 @@
 """PNG compression of rosbridge: the bytes of a JSON text are the pixels of an RGB image."""
 
-from __future__ import annotations
-
 import base64
 import json
 import math

@@ -3,8 +3,6 @@
 https://github.com/RobotWebTools/rosbridge_suite/tree/ros2/rosapi_msgs
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Subscription of a rosbridge client: its compression, and the frames of a message."""
 
-from __future__ import annotations
-
 import itertools
 import json
 

@@ -1,7 +1,5 @@
 """Definitions of message types as ``rosapi`` returns them: fields, their types, and the lengths of arrays."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.errors import UsageError, did_you_mean

@@ -1,7 +1,5 @@
 """Addresses of bridges: ``PORT`` or ``HOST:PORT``."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from urdfkit.errors import UsageError

@@ -1,7 +1,5 @@
 """Queue of the frames for one peer; bounded, so that a peer that does not read costs a fixed amount of memory."""
 
-from __future__ import annotations
-
 import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable

@@ -1,7 +1,5 @@
 """WebSocket server of a bridge: tornado in a thread of its own, one peer object for each connection."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import logging

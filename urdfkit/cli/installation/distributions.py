@@ -1,7 +1,5 @@
 """The installed distributions that urdfkit requires, directly or indirectly, by the metadata of packages."""
 
-from __future__ import annotations
-
 import re
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 

@@ -1,7 +1,5 @@
 """``urdfkit --version --verbose``: versions of the platform and of the dependencies, for a bug report."""
 
-from __future__ import annotations
-
 import os
 import platform
 import sys

@@ -1,7 +1,5 @@
 """The page of a robot with a result of a command, served (``--view``) or as one file (``--html``)."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping
 from typing import Any

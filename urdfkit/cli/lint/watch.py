@@ -1,7 +1,5 @@
 """``urdfkit lint --watch``: lint, wait until a file changes, lint again."""
 
-from __future__ import annotations
-
 import os
 import sys
 import time

@@ -1,7 +1,5 @@
 """Convert positions and findings to the Language Server Protocol: URIs, lines from 0, columns in UTF-16."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 

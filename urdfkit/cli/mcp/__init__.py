@@ -3,8 +3,6 @@
 Each call of a tool runs in a process of its own, which is limited in time and memory and reads only one folder.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

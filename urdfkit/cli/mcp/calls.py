@@ -1,7 +1,5 @@
 """Calls of commands in confined processes, with limits of time, memory and output."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

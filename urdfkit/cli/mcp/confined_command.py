@@ -4,8 +4,6 @@ Standard input holds the job as JSON: the folder to read, a folder for temporary
 the command line. The command ``picture`` prints a PNG in base64; all others are commands of urdfkit.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Joint positions on the command line: words ``name=value``."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable, Mapping
 

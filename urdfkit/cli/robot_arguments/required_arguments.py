@@ -1,7 +1,5 @@
 """Notes on required xacro arguments without a value: their descriptions, and the values that launch files pass."""
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """The arguments ``ROBOT TIP`` and ``--base LINK`` of commands on a kinematic chain."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

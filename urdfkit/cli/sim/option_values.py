@@ -1,7 +1,5 @@
 """Parsers of the values of ``sim run``'s options."""
 
-from __future__ import annotations
-
 import argparse
 import re
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The options `--strict` and `--density` of every command that simulates, and the lines of its warnings."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

@@ -1,7 +1,5 @@
 """Reports of ``sim run``: the JSON object, and a summary as text."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import hypot
 from typing import Any

@@ -1,7 +1,5 @@
 """``sim run --save-scan``: write the last scan or point cloud of a topic as JSON or CSV."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path

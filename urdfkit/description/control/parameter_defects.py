@@ -1,7 +1,5 @@
 """Defects of the parameters of controllers: missing ones, and values that their controller cannot read."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 
 from urdfkit.description.control.controller_types import TYPES

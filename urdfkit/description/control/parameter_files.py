@@ -1,7 +1,5 @@
 """Files of controller parameters that the ``<parameters>`` of a ros2_control plugin name."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

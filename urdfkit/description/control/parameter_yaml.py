@@ -1,7 +1,5 @@
 """Parameters from YAML with their source positions, in the layouts of ROS 1 and ROS 2."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -9,8 +9,6 @@ The model does not name it: a launch file loads the parameters and starts the co
 3. without one, the YAML files in the ``config`` folders of the same packages that configure controllers there.
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Parameters and controllers that a ROS 1 launch file loads and spawns; conditions and includes are not evaluated."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Xacro arguments that the launch files of a package pass to a description."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 

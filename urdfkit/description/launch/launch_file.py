@@ -1,7 +1,5 @@
 """Read a launch file of any format with the files it includes; no launch file is executed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path

@@ -5,8 +5,6 @@ over names. Readers of the syntax tree then see the actions as if each had been 
 their place at the call, the others theirs in the function.
 """
 
-from __future__ import annotations
-
 import ast
 import copy
 from collections import Counter

@@ -1,7 +1,5 @@
 """ROS 2 Python launch files, read as syntax trees; computed values are unknown."""
 
-from __future__ import annotations
-
 import ast
 import os
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """ROS 1 launch files and ROS 2 XML and YAML launch files."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

@@ -4,8 +4,6 @@ Unlike the methods of `Path` before Python 3.14, these return False for a name t
 may not be searched.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Find files whose path differs from a written one in capital letters only."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file, is_folder

@@ -1,7 +1,5 @@
 """Where packages are: the folders of a workspace, of ROS, of Gazebo, and the bundled ones, in order."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Suggestions for packages and files that do not exist: names that are similar apart from common parts."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from pathlib import Path

@@ -3,8 +3,6 @@
 The simulator leaves out a plugin with another value, and the linter reports the value.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from math import isfinite

@@ -1,7 +1,5 @@
 """Parameters written in a plugin that the plugin does not read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.plugins.lookup import stem, tables_of

@@ -1,7 +1,5 @@
 """Groups of a model's links that joints connect, in the form of the file."""
 
-from __future__ import annotations
-
 from urdfkit.description.sdf.model import WorldJoint, WorldLink, WorldModel
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.record import record

@@ -5,8 +5,6 @@ differ, a massless link named after the joint with the suffix ``_frame`` is inse
 that every link keeps its frame from the file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from math import isinf
 

@@ -3,8 +3,6 @@
 SI units throughout. Records compare by content, not by source position.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Plugin, Pose, Sphere, Vector

@@ -1,7 +1,5 @@
 """Read values of SDF strictly: an unusable value raises an error with its position."""
 
-from __future__ import annotations
-
 from math import isfinite, radians
 
 from urdfkit.description.sdf.shapes import Rgba

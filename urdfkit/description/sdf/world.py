@@ -1,7 +1,5 @@
 """World: gravity, models, lights and physics settings of an SDF file."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 A value that is missing or could not be read is None. SI units: [m] [rad] [N] [N·m] [m/s] [rad/s].
 """
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.shapes import Pose, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.record import field, record

@@ -1,7 +1,5 @@
 """Likely corrections of undefined child links: links with a similar name, preferably without parent."""
 
-from __future__ import annotations
-
 from itertools import islice
 
 from urdfkit.description.urdf.queries import dangling

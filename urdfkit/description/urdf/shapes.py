@@ -1,7 +1,5 @@
 """Poses and shapes of a description, in metres and radians."""
 
-from __future__ import annotations
-
 from urdfkit.record import record
 
 Vector = tuple[float, float, float]

@@ -4,8 +4,6 @@ Source: urdfdom 6.0 (urdf_parser.h, pose.cpp, link.cpp, joint.cpp). It ignores a
 robot's, drops a capsule from URDF 1.0, and refuses a robot of an unknown version.
 """
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.element import Element

@@ -5,8 +5,6 @@ overlap, the overlap counts once: it is integrated over quasirandom points in ea
 the number of shapes that contain it. Only overlaps are sampled, so the result is exact for separate shapes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from math import cos, hypot, pi, sin, sqrt
 

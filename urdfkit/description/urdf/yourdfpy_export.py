@@ -1,7 +1,5 @@
 """Robot → ``yourdfpy.URDF``, element by element."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

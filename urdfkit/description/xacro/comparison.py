@@ -3,8 +3,6 @@
 Packages are found by urdfkit in both, so that a difference is one of the language and ROS need not be installed.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Arguments that the files of a description declare with ``<xacro:arg>``, also where a condition excludes them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 from urdfkit.description.xml.reader import document_of

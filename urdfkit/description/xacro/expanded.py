@@ -1,7 +1,5 @@
 """Expanded: a file after xacro; every element has the position of its source."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Call one macro of a file that defines macros only, so that the file describes a robot."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from pathlib import Path

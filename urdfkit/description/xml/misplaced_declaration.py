@@ -1,7 +1,5 @@
 """An XML declaration after blank lines or comments: tinyxml2 of older simulators reads it, XML does not permit it."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.errors import XmlError

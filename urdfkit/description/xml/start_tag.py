@@ -1,7 +1,5 @@
 """The parts of a start tag in the source text, for fixes and for the caret of a message."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Position, Source, Span

@@ -1,7 +1,5 @@
 """Attributes as the source files have them, before xacro evaluates them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.description.xml.reader import read_source

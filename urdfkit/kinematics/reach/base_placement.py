@@ -1,7 +1,5 @@
 """Where to put a robot, upright on the floor, so that its tip reaches poses: by its map of reach, then by solving."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Files of maps of reach: arrays (.npz), JSON, and coloured points (.ply)."""
 
-from __future__ import annotations
-
 import io
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """ReachMap: the share of orientations that the tip of a chain reaches, by cell of a grid."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Solutions of inverse kinematics in which no links collide."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from math import dist

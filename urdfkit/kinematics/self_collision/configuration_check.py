@@ -1,7 +1,5 @@
 """Collisions between the links of a robot in one configuration, or in many."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations
 from math import dist

@@ -1,7 +1,5 @@
 """Completion: elements, attributes, existing names, values, files, plugin parameters."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path

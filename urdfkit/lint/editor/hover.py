@@ -1,7 +1,5 @@
 """Hover text: findings with their rule pages, values of expressions, masses and inertia."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 from urdfkit.description.urdf.robot import Link

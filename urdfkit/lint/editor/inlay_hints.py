@@ -1,7 +1,5 @@
 """Inlay hints: values of expressions and masses of links, next to where the file computes them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 
 from urdfkit.lint.model.model import Model

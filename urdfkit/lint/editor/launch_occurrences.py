@@ -4,8 +4,6 @@ The files are searched as text. A word counts only where launch files name frame
 ``static_transform_publisher``), joints, or arguments of xacro in a file that names the description.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

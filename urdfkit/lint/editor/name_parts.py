@@ -1,7 +1,5 @@
 """Parts of a name that xacro composes, such as ``${side}_wheel``, traced to the literals where they are written."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Expansion, Source

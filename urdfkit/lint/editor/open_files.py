@@ -1,7 +1,5 @@
 """Project: the files open in an editor, saved or not, and the models read from them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

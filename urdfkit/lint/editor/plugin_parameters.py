@@ -1,7 +1,5 @@
 """Lookup of plugin tables for a tag, and the descriptions of plugin parameters."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 from urdfkit.lint.model.tags import Tag
 

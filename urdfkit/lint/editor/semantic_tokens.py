@@ -1,7 +1,5 @@
 """Semantic tokens: kinds of the names of xacro in a file, which the syntax of XML does not show."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.editor.symbol_occurrences import parameters_around, written_occurrences

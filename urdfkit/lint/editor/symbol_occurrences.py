@@ -4,8 +4,6 @@ Links, joints and materials are collected after expansion: a name made of ``${pr
 macro. Macros, properties and arguments are collected from the source text.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

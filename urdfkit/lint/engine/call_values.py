@@ -1,7 +1,5 @@
 """Findings on a value that a macro only hands on, at the macro call where a person wrote it."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Span

@@ -4,8 +4,6 @@ A rule that found nothing is run on a model of the new elements alone. If it fin
 before, it is run on the whole model, so that its findings are those of a fresh check.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from urdfkit.description.xml.element import Element

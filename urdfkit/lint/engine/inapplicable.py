@@ -1,7 +1,5 @@
 """Selected rules that do not apply to the target, which would otherwise pass without a word."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 

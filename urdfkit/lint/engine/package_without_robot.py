@@ -1,7 +1,5 @@
 """Packages without a robot, such as bringup: their launch, YAML and build files are checked."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

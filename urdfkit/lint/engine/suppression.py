@@ -1,7 +1,5 @@
 """Comments in a file that suppress findings, and findings on those comments."""
 
-from __future__ import annotations
-
 from urdfkit.lint.engine.rule_runner import RuleRunner, every_code
 from urdfkit.lint.facts.suppressions import Suppression
 from urdfkit.lint.finding import Finding

@@ -7,8 +7,6 @@ Files are written only after the fixed text has been linted, and each file is re
 linted folders, such as installed packages, are never changed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Bytes outside of the edits stay unchanged: line endings, byte order marks, encodings, comments.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path

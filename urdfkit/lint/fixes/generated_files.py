@@ -1,7 +1,5 @@
 """Recognise files that a program wrote: by their first lines, or by neighbours of the same structure."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Mass, centre of mass and inertia of a link computed from its shapes, and the edits that write them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import UNROTATED, rotation_of

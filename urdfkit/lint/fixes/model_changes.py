@@ -5,8 +5,6 @@ changes every expansion; the finding has to be about each of them. An edit of a 
 parameters names the elements whose source has an expression.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
 

@@ -1,7 +1,5 @@
 """Mesh files: their elements and paths."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Files related to a robot: launch files, YAML, SRDF and package files, with the text of each."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 They differ in their names and in the macro call only. A rule that checks each element alone needs to check one of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Missing ``xacro:`` prefixes, and the edits that add them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

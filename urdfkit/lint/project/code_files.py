@@ -1,7 +1,5 @@
 """Texts of the code and other files of a package that no reader of urdfkit parses."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Confinement: refuse to read files outside of given folders, for untrusted descriptions."""
 
-from __future__ import annotations
-
 import os
 import sys
 import sysconfig

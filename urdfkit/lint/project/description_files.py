@@ -1,7 +1,5 @@
 """The descriptions and fragments in a folder or near a file, with their texts without comments."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Entry files: models, the models that include a fragment, and macro libraries that no file includes."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """Which descriptions include which, by the paths that they write; computed parts of a path match anything."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Every description of a package is classified by patterns; only the robots among them are expanded.
 """
 
-from __future__ import annotations
-
 import re
 
 # Compiled on first use; linting one named file needs none of the last four.

@@ -1,7 +1,5 @@
 """Rule selection: ``--select`` and ``--ignore`` accept codes and prefixes of codes (``I``, ``I5``, ``I503``)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 from urdfkit.errors import UsageError, did_you_mean

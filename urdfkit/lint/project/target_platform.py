@@ -1,7 +1,5 @@
 """Targets: names and releases of the consumers of a robot, and the guess from package.xml."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Packages of a workspace that belong to none of its robots, such as the navigation of a robot of another workspace."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Findings with one cause as one finding: a package that is not installed, not each of its 393 meshes."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 

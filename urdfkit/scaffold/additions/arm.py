@@ -1,7 +1,5 @@
 """Adding an arm to an existing description: the arm of the robot template, expanded, in a macro of its own."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 import xml.etree.ElementTree as ElementTree

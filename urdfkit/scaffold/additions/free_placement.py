@@ -1,7 +1,5 @@
 """Search for a free place on a link for a new part."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Adding a sensor to an existing description: a file with a macro, an include and a call."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from collections.abc import Iterator

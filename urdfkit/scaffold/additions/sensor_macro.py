@@ -1,7 +1,5 @@
 """Sensors of the robot template as xacro macros with name, parent, topic and update rate as parameters."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

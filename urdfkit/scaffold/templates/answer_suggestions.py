@@ -1,7 +1,5 @@
 """Suggestions for answers that contradict each other: the smallest change of one number that satisfies all checks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping
 from math import ceil, floor, isfinite, log10
 

@@ -1,7 +1,5 @@
 """Replacement of the placeholders of a template by answers: ``@name@``, and lines repeated for several answers."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Mapping

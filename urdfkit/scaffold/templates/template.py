@@ -6,8 +6,6 @@ each enabled by certain answers. A line with the placeholder of a question that 
 for each of them.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass

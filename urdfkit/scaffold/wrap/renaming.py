@@ -1,7 +1,5 @@
 """Replacement of names of links and joints that some tools reject."""
 
-from __future__ import annotations
-
 import codecs
 import re
 from collections.abc import Iterator, Mapping

@@ -5,8 +5,6 @@ thread less and a lower priority, 99 of 100 commands to a robot with a camera of
 effect within 8.9 instead of 12.1 ms (Foxglove) and 11.7 instead of 14.7 ms (rosbridge; two cores).
 """
 
-from __future__ import annotations
-
 import os
 from contextlib import suppress
 from pathlib import Path

@@ -1,7 +1,5 @@
 """GlRenderer: renders images with OpenGL."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from math import hypot

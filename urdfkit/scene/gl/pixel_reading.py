@@ -4,8 +4,6 @@ A driver that draws on the processor draws when pixels are read, which takes ten
 lock of Python meanwhile. A function called by ctypes does not.
 """
 
-from __future__ import annotations
-
 import ctypes
 import sys
 from functools import cache

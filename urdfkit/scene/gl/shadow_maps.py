@@ -1,7 +1,5 @@
 """Shadow maps of directional lights."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

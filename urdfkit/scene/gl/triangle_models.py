@@ -1,7 +1,5 @@
 """Triangles of shapes for OpenGL: round solids as facets, meshes unchanged."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -1,7 +1,5 @@
 """Control of joints by the actions of a batch: velocities, positions or efforts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf

@@ -1,7 +1,5 @@
 """Observations of all worlds of a batch, as arrays that each step overwrites."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

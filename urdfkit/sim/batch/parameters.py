@@ -1,7 +1,5 @@
 """Parameters of the worlds of a batch that are drawn at random: masses, friction, gains, gravity, start poses."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import isfinite

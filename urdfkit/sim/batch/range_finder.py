@@ -1,7 +1,5 @@
 """Distances from a link to the static bodies of the world, in all worlds of a batch."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import inf
 

@@ -1,7 +1,5 @@
 """Memory of the worlds of a batch: one block of floats and one of integers, with a row for each world."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any

@@ -1,7 +1,5 @@
 """Omission of shapes with missing or invalid meshes, with a warning for each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

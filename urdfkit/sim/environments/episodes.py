@@ -1,7 +1,5 @@
 """Episodes of a task in all worlds of a batch."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Environment of Gymnasium with one robot."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Vector environment of Gymnasium: a robot in many worlds."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -4,8 +4,6 @@ In ROS, joint_state_publisher, robot_state_publisher and Gazebo publish them. A 
 but not built, and the simulation does not stop to count it.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from typing import Any

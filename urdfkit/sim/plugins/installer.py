@@ -1,7 +1,5 @@
 """Installation of a robot's plugins: select and configure a class for each element, report skipped plugins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 

@@ -5,8 +5,6 @@ registered when the plugins have been installed, or a controller has been loaded
 is part of the state of the object that refers to it.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from functools import cache, partial
 from types import FunctionType, MethodType

@@ -1,7 +1,5 @@
 """Bus of one robot's plugins, which records their subscriptions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

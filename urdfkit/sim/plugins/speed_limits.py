@@ -4,8 +4,6 @@ They follow the drives of gz sim (gz-math, SpeedLimiter.cc) and ROS 2's diff_dri
 (control_toolbox, rate_limiter.hpp).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf

@@ -1,7 +1,5 @@
 """Copies of a simulation in its present state, by `copy.deepcopy` and `pickle`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -3,8 +3,6 @@
 Registered objects keep their identity: only their state is saved and replaced. All other objects are saved by value.
 """
 
-from __future__ import annotations
-
 import io
 import pickle
 from collections import deque

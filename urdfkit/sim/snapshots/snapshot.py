@@ -3,8 +3,6 @@
 The state consists of the memory of the engine, the objects of plugins, the scheduled calls and the counts of topics.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import struct

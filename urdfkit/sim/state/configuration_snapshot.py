@@ -1,7 +1,5 @@
 """Snapshot: a copy of a robot's configuration, from which the poses of its links are computed later."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any
 

@@ -1,7 +1,5 @@
 """State of a robot: configuration, velocity, efforts and contacts; read-only, for plugins, subscribers and users."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from urdfkit.errors import UnknownNameError, did_you_mean

@@ -4,8 +4,6 @@ The bus has no services: the topic with the name of a service carries its reques
 the user and has no other effect, like a service that returns an error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The world of a running simulation: its entities are read, spawned, removed, placed, pushed and saved."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -3,8 +3,6 @@
 Poses are x y z [m] and a quaternion x y z w.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

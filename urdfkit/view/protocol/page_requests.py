@@ -3,8 +3,6 @@
 A request has a name and values; a table of `Schema` defines the accepted ones. Checked values are bounded and finite.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The WebSocket of a page: sends the frames of its channel and receives messages."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import itertools

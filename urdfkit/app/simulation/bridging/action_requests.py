@@ -1,7 +1,5 @@
 """Requests of the command ``action``: list the actions of a simulation or of another graph, send goals, follow them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Protocol
 

@@ -1,7 +1,5 @@
 """Controls: interface of what pauses and resets a running simulation."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 

@@ -1,7 +1,5 @@
 """The description of a robot as URDF, expanded, for programs that draw it."""
 
-from __future__ import annotations
-
 from xml.sax.saxutils import escape, quoteattr
 
 from urdfkit.description import Robot

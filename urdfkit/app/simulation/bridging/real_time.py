@@ -1,7 +1,5 @@
 """Advance a simulation without a page in real time, while bridges serve their peers."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

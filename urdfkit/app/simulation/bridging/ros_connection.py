@@ -1,7 +1,5 @@
 """Connect a simulation with the graph of ROS 1 or ROS 2."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Requests of the command ``service``: list the services of a simulation or of another graph, and call them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 

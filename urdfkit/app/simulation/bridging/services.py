@@ -1,7 +1,5 @@
 """Services of a simulation for the peers of bridges: those of Gazebo Classic, gz, ros2_control and the standard."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -3,8 +3,6 @@
 https://github.com/ros-simulation/simulation_interfaces; a response contains a result code instead of an error.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from typing import Any

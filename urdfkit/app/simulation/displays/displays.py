@@ -1,7 +1,5 @@
 """Displays: topics that pages show in the 3-D view, the frames with their ages, and poses published with the mouse."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Drawings of messages: lines, arrows, ellipsoids, maps and points in the frame of the header, as JSON values."""
 
-from __future__ import annotations
-
 import base64
 import io
 import math

@@ -1,7 +1,5 @@
 """The frames of a simulation or recording: transforms of ``/tf`` and ``/tf_static``, joined with the robot's links."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Boxes of a Detection2DArray, which pages draw over an image."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

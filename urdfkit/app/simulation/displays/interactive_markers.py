@@ -5,8 +5,6 @@ of the service ``NAME/get_interactive_markers`` (ROS 2), and receives the action
 (https://github.com/ros-visualization/interactive_markers).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

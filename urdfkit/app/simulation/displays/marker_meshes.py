@@ -1,7 +1,5 @@
 """Meshes of markers: files of packages, read once for the page."""
 
-from __future__ import annotations
-
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import ResourceError
 from urdfkit.meshes.loader import MeshLoader

@@ -1,7 +1,5 @@
 """Markers of visualization_msgs: kept by namespace and number until they are deleted or their lifetime ends."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Expressions of the robot's state with numbers, comparisons and a few functions: ``--until`` and ``--metric``."""
 
-from __future__ import annotations
-
 import ast
 import math
 import operator

@@ -1,7 +1,5 @@
 """Options of a run without a page: the start, the step, the plugins and the commands."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

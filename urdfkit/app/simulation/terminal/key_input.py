@@ -1,7 +1,5 @@
 """Keys of a terminal, read one by one without echo; the terminal is restored afterwards."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

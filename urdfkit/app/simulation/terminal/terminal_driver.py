@@ -1,7 +1,5 @@
 """Drive a robot by the keys of teleop_twist_keyboard, and show its speeds and pose on one line of the terminal."""
 
-from __future__ import annotations
-
 import math
 import os
 import sys

@@ -1,7 +1,5 @@
 """Solve the poses of a file in threads, print a summary or JSON, and write arrays."""
 
-from __future__ import annotations
-
 import argparse
 import io
 import json

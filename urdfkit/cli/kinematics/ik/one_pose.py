@@ -1,7 +1,5 @@
 """Solve one pose and print its solutions, without numpy."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Solutions as text and JSON."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.kinematics.serial.serial_chain import SerialChain

@@ -1,7 +1,5 @@
 """Sensors of hector_gazebo_plugins and hector_quadrotor_gazebo_plugins, for ROS 1, with drift and noise."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

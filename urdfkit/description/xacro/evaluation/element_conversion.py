@@ -1,7 +1,5 @@
 """Conversion of an expanded tree to elements, whose origins are the places and macro calls of the tree."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xacro.evaluation.tree import CDATA, NOTHING, TEXT, VALUES, Chain, Copy, ExpandedElements, Tag

@@ -1,7 +1,5 @@
 """Parameters of macros: the grammar of the attribute ``params``."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

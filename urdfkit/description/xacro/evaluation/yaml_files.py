@@ -1,7 +1,5 @@
 """Read YAML files into values, with the units of xacro, within limits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Repair calls that do not fit their macro: which macro is meant, and which parameters are missing or unknown."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from urdfkit.description.xacro.evaluation.failures import Failure, macro_arguments

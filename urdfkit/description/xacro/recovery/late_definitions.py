@@ -1,7 +1,5 @@
 """Definitions that come after their first use, as earlier passes over a file found them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.description.xacro.evaluation.macros import Macro

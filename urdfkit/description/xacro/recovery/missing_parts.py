@@ -1,7 +1,5 @@
 """Parts that a lenient expansion left out of a robot: missing includes, undefined macros, and values that need them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.defect_message import with_effect

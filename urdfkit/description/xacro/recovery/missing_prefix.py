@@ -1,7 +1,5 @@
 """xacro written without its prefix: which elements are meant as directives and macro calls."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 

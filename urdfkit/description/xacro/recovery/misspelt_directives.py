@@ -1,7 +1,5 @@
 """Directives of xacro that are misspelt, and their attributes: what they must mean."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import lru_cache

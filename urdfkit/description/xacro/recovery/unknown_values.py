@@ -1,7 +1,5 @@
 """Unknown values: what stands for a value that could not be computed, and the failure to compute with it."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.evaluation.failures import Failure
 
 

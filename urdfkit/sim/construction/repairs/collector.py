@@ -1,7 +1,5 @@
 """Collection of the repairs of a simulation, each reported once; or refusal of everything that needs one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from urdfkit.defect_message import DefectMessage, with_effect

@@ -1,7 +1,5 @@
 """Replacement of collision shapes that have no size or whose mesh cannot be read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Estimated masses and inertias of moving links without them, from their shapes at uniform density."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import isfinite, pi

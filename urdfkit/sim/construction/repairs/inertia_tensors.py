@@ -5,8 +5,6 @@ and only if S is positive semidefinite. The nearest such matrix, by the Frobeniu
 the negative eigenvalues replaced by zero (Higham, Computing a nearest symmetric positive semidefinite matrix, 1988).
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

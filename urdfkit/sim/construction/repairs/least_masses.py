@@ -9,8 +9,6 @@ If M is singular for the joints that move the rest, such as those of an arm of w
 rest does not determine its own motion, and no mass is small. Then m is the mean mass of the links with mass.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any

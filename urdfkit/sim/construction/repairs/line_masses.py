@@ -5,8 +5,6 @@ joint along the line, nothing resists its rotation about the line, and the mass 
 a body; PyBullet ignores the tensor of the file and takes that of the shapes.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

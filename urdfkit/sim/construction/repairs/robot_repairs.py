@@ -1,7 +1,5 @@
 """Repair of a robot before it is simulated: mimic joints, shapes, inertia tensors and masses, in this order."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from urdfkit.defect_message import with_effect

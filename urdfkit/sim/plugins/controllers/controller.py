@@ -1,7 +1,5 @@
 """Base class of the controllers of ros_control and ros2_control, and the hardware interfaces that they command."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -4,8 +4,6 @@ Sources: ros_control noetic, controller_manager; ros2_control, controller_manage
 warning: a topic has no response, and a response has no reason.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

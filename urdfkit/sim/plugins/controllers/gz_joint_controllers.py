@@ -4,8 +4,6 @@ Sources: gz-sim main, src/systems/joint_position_controller/JointPositionControl
 src/systems/joint_controller/JointController.cc; gz-math PID.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import inf
 from typing import Any

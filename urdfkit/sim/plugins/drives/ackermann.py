@@ -5,8 +5,6 @@ CheckAndTruncateForce. Gazebo applies an effort for one step after each update; 
 over the steps until the next update.
 """
 
-from __future__ import annotations
-
 from math import copysign, dist, hypot, inf, tan
 from typing import Any
 

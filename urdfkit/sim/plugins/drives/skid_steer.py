@@ -3,8 +3,6 @@
 Source: gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_skid_steer_drive.cpp.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.plugins.drives.diff_drive import DiffDrive
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.parameters import Parameters

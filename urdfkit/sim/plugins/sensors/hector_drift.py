@@ -5,8 +5,6 @@ inverse of ``driftFrequency``. It follows the documentation in hector_gazebo_plu
 multiplies the noise by the time step, so its drift decreases with the update rate.
 """
 
-from __future__ import annotations
-
 from math import exp
 
 import numpy as np

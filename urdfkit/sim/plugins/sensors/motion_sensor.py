@@ -1,7 +1,5 @@
 """Base class of motion and position sensors: measures the motion of a link."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Base class of lidars and cameras: sensors on a link that observe the scene while a topic has subscribers."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from functools import cache, partial

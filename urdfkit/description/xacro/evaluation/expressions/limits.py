@@ -1,7 +1,5 @@
 """Limits of evaluation and expansion, far above the sizes of real descriptions, and the exception for files beyond."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 MAX_EXPRESSION = 10_000

@@ -3,8 +3,6 @@
 Sources: ros_controllers noetic, four_wheel_steering_controller.cpp, odometry.cpp; urdf_geometry_parser.cpp.
 """
 
-from __future__ import annotations
-
 from math import atan, copysign, dist, hypot, inf, pi, tan
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Base of the controllers of wheeled robots: command timeout, speed limits, odometry on topics."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from copy import copy

@@ -3,8 +3,6 @@
 Sources: ros_controllers noetic, joint_trajectory_controller; ros2_controllers, joint_trajectory_controller.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, ClassVar
 

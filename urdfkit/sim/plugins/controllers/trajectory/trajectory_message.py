@@ -3,8 +3,6 @@
 Sources: ros_controllers noetic, init_joint_trajectory.h; ros2_controllers, joint_trajectory_controller.cpp.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import pi
 from typing import Any

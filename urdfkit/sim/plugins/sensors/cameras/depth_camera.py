@@ -1,7 +1,5 @@
 """Depth cameras: gazebo_ros_openni_kinect and _depth_camera of ROS 1, depth and RGB-D cameras of gz sim."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """gazebo_ros_camera: the plugin for single cameras in ROS 1, and for every camera type in ROS 2."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any

@@ -4,8 +4,6 @@ All cameras capture at the same time and share one frame id, as in Gazebo. In a 
 the right camera contains its distance to the left camera (``P[3] = -f · hackBaseline``).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial

@@ -6,8 +6,6 @@ torques are about the link's centre of mass. While a topic has subscribers, the 
 contact between two messages is part of the later message, with the values of its last step.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from functools import partial
 from typing import Any

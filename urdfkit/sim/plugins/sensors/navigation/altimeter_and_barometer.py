@@ -1,7 +1,5 @@
 """Height sensors: altimeter, air pressure sensor, and the barometer of the hector quadrotor."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from math import exp, log
