@@ -163,7 +163,7 @@ def test_warnings_of_limits_and_degrees(capsys: pytest.CaptureFixture[str], arm_
     words = ["ik", arm_file, "finger_a", "--xyz", "0.28,0.16,0.59", "--position-only"]
     main([*words, "--hold", "bend=3", "--from", "slide=9", "--rpy", "0,90,0"])
     assert capsys.readouterr().err.splitlines() == [
-        "urdfkit: warning: --rpy 0,90,0: 90 rad is more than a turn; if it is in degrees, use 0,1.5708,0",
+        "urdfkit: warning: --rpy 0,90,0: 90 rad is more than one full turn; if it is in degrees, use 0,1.5708,0",
         "urdfkit: warning: joint `slide` at 9 m is outside its limits [-0.1, 0.4] m",
         "urdfkit: warning: joint `bend` at 3 rad is outside its limits [-1.5, 2] rad",
         "urdfkit: warning: joint `dial_joint` at 4.3 rad is outside its limits [-3, 3] rad",  # mimics `bend`

@@ -179,7 +179,7 @@ def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path
     ("old", "new", "expected"),
     [
         ("share/${PROJECT_NAME})\n", "share/${PROJECT_NAME}\n", "4: the parenthesis of `install` is not closed"),
-        ("project(cart)", "project(cart))", "2: `)` closes no command"),
+        ("project(cart)", "project(cart))", "2: unmatched `)`"),
         ("project(cart)\n", "", "1: CMakeLists.txt does not call project()"),
         ("find_package(ament_cmake REQUIRED)\n", "", "9: ament_package() needs find_package(ament_cmake REQUIRED)"),
         ("(ament_cmake R", "(ament_cmakes R", "3: unknown package `ament_cmakes`; did you mean `ament_cmake`?"),
@@ -199,11 +199,11 @@ def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path
         ("(DIRECTORY", "(FILES", "4: install(FILES) does not install folder `launch`; write install(DIRECTORY …)"),
         ("share/${PROJECT_NAME}", "lib/cart", "5: folder `launch` is installed to `lib/cart`, but its files are"),
         ("install(PROGRAMS scripts/wait.py DESTINATION lib/${PROJECT_NAME})\n", "", "4: `scripts/wait.py` is not"),
-        ("(DIRECTORY", "(DIRECTROY", "4: unknown word `DIRECTROY` of install(); did you mean `DIRECTORY`?"),
+        ("(DIRECTORY", "(DIRECTROY", "4: unknown argument `DIRECTROY` of install(); did you mean `DIRECTORY`?"),
         (
             "  DESTINATION share",
             "  DESTNATION share",
-            "5: unknown word `DESTNATION` of install(); did you mean `DESTINA",
+            "5: unknown argument `DESTNATION` of install(); did you mean `DESTINA",
         ),
     ],
 )

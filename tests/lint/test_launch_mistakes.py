@@ -401,7 +401,7 @@ def generate_launch_description():
 def test_gazebo_starts_once_under_a_condition(tmp_path, first, flag, is_reported):
     cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim")
     write(cart / "launch/gz.launch.py", SIMULATORS.replace("{first}", first).replace("{flag}", flag))
-    message = "Gazebo starts under the condition on line 21 too; both run together"
+    message = "Gazebo starts under the condition on line 21 too; both start"
     assert found(cart, "L111") == ([("gz.launch.py", 22, message)] if is_reported else [])
 
 

@@ -55,7 +55,7 @@ def binary(count: int, *triangles: bytes, header: bytes = b"") -> bytes:
         ("a.glb", b"gltf", "is not a binary glTF file"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "contains no triangles"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", None),
-        ("a.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "has all triangles in one point"),
+        ("a.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "has all vertices at one point"),
     ],
 )
 def test_the_fault_of_a_mesh_file(name: str, content: bytes, fault: str | None, write) -> None:

@@ -68,7 +68,7 @@ def test_a_shape_that_is_not_mirrored_is_reported_in_the_macro(tmp_path):
     assert (code, line) == ("S909", line_of('<origin xyz="0 ${reflect*0.1} 0"/>'))
     assert help == "check the sign of the offset"
     assert message == (
-        "shapes of links `left_upper` and `right_upper` are not mirrored as the joints below are: y is 0.1 m for both"
+        "shapes of links `left_upper` and `right_upper` are not mirrored, unlike the joints below: y is 0.1 m for both"
     )
 
 

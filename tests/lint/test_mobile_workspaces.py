@@ -252,9 +252,9 @@ MISTAKES = [
         "world_frame: odom",
         "K983",
         1,
-        "publish the same transform; write `map` in one",
+        "publish the same transform; set `world_frame` of one of them to `map`",
     ),
-    (ROS1, "start.launch", "cart)/map.yaml", "cart)/odom.yaml", "K983", 14, "have the parameters of one file"),
+    (ROS1, "start.launch", "cart)/map.yaml", "cart)/odom.yaml", "K983", 14, "load the same parameters"),
     (
         ROS1,
         "start.launch",
@@ -370,7 +370,7 @@ MISTAKES = [
         14,
         "robot `cart` has no link `lidar_link`, the frame of this driver",
     ),
-    (ROS2, START, '.lower() == "true"', ".lower() == 'True'", "L106", 20, "a text in lower case is never `True`"),
+    (ROS2, START, '.lower() == "true"', ".lower() == 'True'", "L106", 20, "a lower-case string is never `True`"),
     (
         ROS2,
         START,
@@ -378,7 +378,7 @@ MISTAKES = [
         'bool(LaunchConfiguration("rear").perform(context))',
         "L106",
         20,
-        "this text is true even if it is `false`",
+        "this string is always true, even if it is `false`",
     ),
     (
         ROS2,
@@ -387,7 +387,7 @@ MISTAKES = [
         "perform(context) == True",
         "L106",
         20,
-        "compares a text with True",
+        "compares a string with True",
     ),
     (
         ROS2,

@@ -69,7 +69,7 @@ class BagFile:
         if self.path.is_file() and not _begins_with(self.path, FIRST_BYTES[self.path.suffix]):
             raise ResourceError(f"{self.path} is not a recording: its content is not that of a {self.path.suffix} file")
         if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
-            raise ResourceError(f"{self.path} is not a recording: a folder of ros2 bag contains metadata.yaml")
+            raise ResourceError(f"{self.path} is not a recording: a ros2 bag folder contains metadata.yaml")
         try:
             from rosbags.highlevel import AnyReader
 

@@ -89,7 +89,7 @@ def _decoded(description: Any, value: Any) -> Any:
             try:
                 return np.frombuffer(bytearray(base64.b64decode(value, validate=True)), dtype=np.uint8)
             except binascii.Error as error:
-                raise UsageError(f"a field of bytes is not base64: {error}") from error
+                raise UsageError(f"a byte array is not valid base64: {error}") from error
         if isinstance(value, list) and int(inner[0]) == 1 and inner[1][0].startswith("float"):
             return [math.nan if each is None else each for each in value]
         if isinstance(value, list) and int(inner[0]) == 2:

@@ -35,7 +35,8 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
         "--host",
         default="127.0.0.1",
         metavar="H",
-        help="listen on this address; 0.0.0.0 accepts other machines, which need the token in the address",
+        help="listen on this address; 0.0.0.0 accepts connections from other machines, which need the token in the "
+        "address",
     )
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
     parser.add_argument(

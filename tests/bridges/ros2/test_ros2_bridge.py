@@ -209,7 +209,7 @@ def test_actions_without_a_server_are_one_line() -> None:
     bridge.update()
     bridge.close()
     assert lines == [
-        "/r1/left/move, /r1/right/move: not on ROS 2; recorded has no actions: send goals over --rosbridge"
+        "/r1/left/move, /r1/right/move: not on ROS 2; recorded does not support actions: send goals over --rosbridge"
     ]
     assert not bridge.actions
 

@@ -46,5 +46,5 @@ def test_one_that_is_not_there_or_too_new(tmp_path):
     with pytest.raises(ResourceError, match="create one with --write-baseline"):
         read(tmp_path / "none.json")
     (tmp_path / "new.json").write_text('{"baseline": 2, "findings": []}')
-    with pytest.raises(ResourceError, match="later urdfkit"):
+    with pytest.raises(ResourceError, match="later version of urdfkit"):
         read(tmp_path / "new.json")

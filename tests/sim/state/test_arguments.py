@@ -100,7 +100,7 @@ def test_numbers_and_vectors_are_what_they_were() -> None:
 
 def test_a_limit_is_reported_with_its_unit() -> None:
     arm = Simulator("seven_dof_arm", note=lambda text: None)
-    with pytest.raises(SimulationError, match=r"cannot go to 9 rad: its limits are -?[\d.]+ … [\d.]+ rad"):
+    with pytest.raises(SimulationError, match=r"cannot move to 9 rad: its limits are -?[\d.]+ … [\d.]+ rad"):
         arm.motors.hold("elbow_pitch_joint", 9.0)
-    with pytest.raises(SimulationError, match=r"cannot go to 9 m: its limits are -?[\d.]+ … [\d.]+ m$"):
+    with pytest.raises(SimulationError, match=r"cannot move to 9 m: its limits are -?[\d.]+ … [\d.]+ m$"):
         arm.motors.hold("finger_joint1", 9.0)

@@ -50,7 +50,7 @@ class ActionlibActions:
         """
         if self._topics.node.ros != "ROS 1":
             raise UnknownTypeError(
-                "Cyclone DDS has no actions: source a ROS 2 with rclpy, or use --live rosbridge://HOST:PORT"
+                "Cyclone DDS does not support actions: source a ROS 2 workspace with rclpy, or use --live rosbridge://HOST:PORT"
             )
         return SimulationActions(self._bus).types()
 

@@ -13,7 +13,7 @@ RESOLUTION, ORIENTATIONS = 0.1, 20
 
 
 class ReachLayer:
-    """Computes maps of reach, one at a time, and sends them to the pages.
+    """Computes reach maps, one at a time, and sends them to the pages.
 
     Args:
         server: of the page.
@@ -30,7 +30,7 @@ class ReachLayer:
             KinematicsError: another map is being computed.
         """
         if self._thread is not None and self._thread.is_alive():
-            raise KinematicsError("another map of reach is being computed")
+            raise KinematicsError("another reach map is being computed")
         self._thread = Thread(target=self._compute, args=(chain,), name="reach", daemon=True)
         self._thread.start()
         return {"resolution": RESOLUTION, "orientations": ORIENTATIONS}

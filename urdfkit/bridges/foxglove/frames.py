@@ -66,4 +66,4 @@ def read_frame(frame: bytes) -> ClientMessage | ServiceRequest:
             return ServiceRequest(service, call, frame[13 : 13 + length].decode(), frame[13 + length :])
     except (IndexError, UnicodeDecodeError, struct.error):
         raise UsageError("a binary frame is too short") from None
-    raise UsageError(f"unknown kind {frame[0]} of a binary frame")
+    raise UsageError(f"unknown type {frame[0]} of a binary frame")

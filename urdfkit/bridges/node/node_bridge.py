@@ -142,7 +142,9 @@ class NodeBridge:
             self._tried.add(name)
             try:
                 if not isinstance(self._node, ActionNode):
-                    raise UnknownTypeError(f"{self._node.description} has no actions: send goals over --rosbridge")
+                    raise UnknownTypeError(
+                        f"{self._node.description} does not support actions: send goals over --rosbridge"
+                    )
                 self._node.serve_action(self._namespace + name, action, partial(self._begin, action))
             except UnknownTypeError as error:
                 missing.setdefault(str(error), []).append(self._namespace + name)

@@ -145,7 +145,7 @@ class CycloneddsNode:
             UnknownTypeError: always.
         """
         raise UnknownTypeError(
-            "Cyclone DDS has no services; they need rclpy: source a ROS 2 workspace, or pip install ros-rclpy"
+            "Cyclone DDS does not support services; they need rclpy: source a ROS 2 workspace, or pip install ros-rclpy"
         )
 
     def service_type(self, service: str) -> str:

@@ -60,7 +60,7 @@ class RosbridgeNode:
             self._socket = self._run(_connect(address)).result(TIMEOUT)
         except (OSError, HTTPClientError, TimeoutError, ValueError) as error:
             self._loop.call_soon_threadsafe(self._loop.stop)
-            raise ResourceError(f"{url}: no server of rosbridge responds ({error or 'timeout'})") from error
+            raise ResourceError(f"{url}: no rosbridge server responds ({error or 'timeout'})") from error
         self._run(self._read())
 
     def writer(self, topic: str, type: str, quality: Quality) -> _RosbridgeWriter:
@@ -130,7 +130,7 @@ class RosbridgeNode:
         Raises:
             UnknownTypeError: always.
         """
-        raise UnknownTypeError(f"a client of rosbridge does not serve {service.name}")
+        raise UnknownTypeError(f"a rosbridge client cannot serve {service.name}")
 
     def send(self, text: str) -> None:
         """Send a frame; it is dropped when the server is gone."""

@@ -68,8 +68,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add(
         "--confined",
         action="store_true",
-        help="read only the package, its workspace and the package path, and no environment variables: for "
-        "untrusted files",
+        help="for untrusted files: read only the package, its workspace and the package path, and ignore environment "
+        "variables",
     )
     help = "do not lint robots again with the xacro arguments that simulation and display launch files pass"
     add("--no-launch-arguments", action="store_true", help=help)

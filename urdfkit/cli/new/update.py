@@ -245,7 +245,9 @@ def _is_confirmed(count: int, refused: str) -> bool:
     files = f"{count} file{'s' if count > 1 else ''}"
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
         if refused:
-            raise ResourceError(f"nothing was changed: {refused}; --yes saves {files}, from which you can merge")
+            raise ResourceError(
+                f"nothing was changed: {refused}; --yes saves the new version of {files} for a manual merge"
+            )
         raise UsageError(
             f"{files} would change; nothing was changed: use --yes to change them, --diff to print the changes"
         )

@@ -25,7 +25,7 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
         const=str(ROSBRIDGE_PORT),
         metavar="PORT",
         help=f"serve roslibjs, roslibpy and other clients of rosbridge (default: {ROSBRIDGE_PORT} on this machine; "
-        "HOST:PORT accepts other machines, which need the token in the address)",
+        "HOST:PORT accepts connections from other machines, which need the token in the address)",
     )
     group.add_argument(
         "--foxglove",

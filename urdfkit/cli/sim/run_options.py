@@ -105,7 +105,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         "--trajectory",
         type=Path,
         metavar="FILE.csv",
-        help="move joints along the trajectory in a file of `urdfkit retime`, starting at its first positions",
+        help="move joints along a trajectory written by `urdfkit retime`, starting at its first point",
     )
     add("--fixed-base", action="store_true", help="fix the root link to the world")
     add("--until", metavar='"EXPR"', help='stop when the expression is true, e.g. "x > 1 or t > 3"')

@@ -1,4 +1,4 @@
-"""The map of reach of a chain: which share of orientations the tip reaches in each cell of a grid.
+"""The reach map of a chain: which share of orientations the tip reaches in each cell of a grid.
 
 A chain goes in; scores and manipulability by cell come out, and files of them.
 """

@@ -1,4 +1,4 @@
-"""Where to put a robot, upright on the floor, so that its tip reaches poses: by its map of reach, then by solving."""
+"""Where to put a robot, upright on the floor, so that its tip reaches poses: by its reach map, then by solving."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -72,7 +72,7 @@ def base_placement(
 
     Args:
         chain: the chain of the map.
-        found: the map of reach.
+        found: the reach map.
         poses: poses of the tip in a frame with z up: x y z [m] and quaternion x y z w, shape (N, 7), or homogeneous
             matrices, shape (N, 4, 4).
         position_only: ignore the orientation.

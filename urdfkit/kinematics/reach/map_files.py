@@ -1,4 +1,4 @@
-"""Files of maps of reach: arrays (.npz), JSON, and coloured points (.ply)."""
+"""Files of reach maps: arrays (.npz), JSON, and coloured points (.ply)."""
 
 import io
 import json
@@ -28,7 +28,7 @@ def check_file(path: Path) -> None:
 
 
 def write_map(path: Path, found: ReachMap) -> None:
-    """Write a map of reach.
+    """Write a reach map.
 
     Raises:
         UsageError: the type of the file is not supported.

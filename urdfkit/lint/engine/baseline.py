@@ -33,7 +33,8 @@ def read(path: Path) -> Counter[Key]:
         written = json.loads(path.read_text("utf-8"))
         if written["baseline"] != _FORMAT:
             raise ResourceError(
-                f"{path} is a baseline of a later urdfkit (format {written['baseline']}, supported is {_FORMAT})"
+                f"{path} was written by a later version of urdfkit "
+                f"(format {written['baseline']}, supported is {_FORMAT})"
             )
         rows = [(str(row["file"]), str(row["code"]), str(row["message"])) for row in written["findings"]]
         counts = [int(row.get("count", 1)) for row in written["findings"]]

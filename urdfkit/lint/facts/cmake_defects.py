@@ -64,7 +64,7 @@ def unbalanced(source: Source) -> BuildDefect | None:
             opened.append(at.start())
         elif at[0] == ")":
             if not opened:
-                return BuildDefect(source, at.start(), ")", "`)` closes no command")
+                return BuildDefect(source, at.start(), ")", "unmatched `)`")
             opened.pop()
     if not opened:
         return None
@@ -86,7 +86,7 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
         misspelt = misspelt_word(command)
         if misspelt is not None:
             word, start, near = misspelt
-            yield BuildDefect(source, start, word, f"unknown word `{word}` of install()" + Suggestion(near, word))
+            yield BuildDefect(source, start, word, f"unknown argument `{word}` of install()" + Suggestion(near, word))
             continue
         if command.name not in ("install", "catkin_install_python") or words[:1] not in (
             ["DIRECTORY"],

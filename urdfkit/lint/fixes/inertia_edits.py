@@ -169,7 +169,7 @@ def _alone(model: Model, link: Link, element: Element) -> Tag:
         )
     tag = model.tag(position)
     if tag is None or tag.name != element.tag:
-        raise UrdfkitError(f"<{element.tag}> of link `{link.name}` is not written there as such", position=position)
+        raise UrdfkitError(f"<{element.tag}> of link `{link.name}` is not written at this position", position=position)
     return tag
 
 

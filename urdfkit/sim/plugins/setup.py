@@ -80,7 +80,7 @@ class Setup:
         robot = self.kinematics.robot
         if name in robot.joint_by_name:
             raise SimulationError(
-                f"joint `{name}` is {robot.joint_by_name[name].type}: nothing can drive it",
+                f"joint `{name}` is {robot.joint_by_name[name].type}: it cannot be driven",
                 position=position,
                 code=code,
             )

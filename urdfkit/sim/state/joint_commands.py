@@ -124,11 +124,11 @@ class Motors:
         self._set(joint, 0.0, self.limit(joint) if effort is None else effort)
         unit = "m" if self._kinematics.robot.joint_by_name[joint].type == "prismatic" else "rad"
         if not isfinite(position):
-            raise SimulationError(f"joint `{joint}` cannot go to {position} {unit}: it must be a finite number")
+            raise SimulationError(f"joint `{joint}` cannot move to {position} {unit}: it must be a finite number")
         lower, upper = self._kinematics.limits(joint)
         if not lower <= position <= upper:
             raise SimulationError(
-                f"joint `{joint}` cannot go to {position:g} {unit}: its limits are {lower:g} … {upper:g} {unit}"
+                f"joint `{joint}` cannot move to {position:g} {unit}: its limits are {lower:g} … {upper:g} {unit}"
             )
         limit = self._kinematics.robot.joint_by_name[joint].limit
         self._velocity[index] = before  # a new target does not stop the joint
@@ -204,7 +204,7 @@ class Motors:
         effort = self.limit(joint) if effort is None else effort
         values = (stiffness, damping, position, velocity)
         if not all(map(isfinite, values)) or stiffness < 0 or damping < 0 or not effort >= 0:
-            raise SimulationError(f"joint `{joint}`: no servo can do {values} with effort {effort}")
+            raise SimulationError(f"joint `{joint}`: invalid servo values {values} with effort {effort}")
         servos = self._servos
         self._velocity[index] = self._effort[index] = servos.approach_rate[index] = 0.0
         servos.position[index], servos.velocity[index] = position, velocity

@@ -114,7 +114,7 @@ def find(url: str | None = None) -> str:
         if each.origin == place.replace("localhost", "127.0.0.1"):
             return each.url
     near = did_you_mean(place, [each.origin for each in simulations])
-    raise UsageError(f"--url {url}: you have no running simulation at this address; pass it with its token{near}")
+    raise UsageError(f"--url {url}: no simulation of this user runs there; include the token in the address{near}")
 
 
 def _registered(folder: Path, *, lives: bool) -> Iterator[tuple[Running, Path]]:

@@ -60,7 +60,7 @@ class Channel:
         """
         self._waiting += len(frame)
         if self._waiting > MAX_WAITING and self._lines:
-            raise ChannelFullError(f"{self._waiting} bytes wait for the browser")
+            raise ChannelFullError(f"{self._waiting} bytes are queued for the browser")
         self._lines.append(frame)
         self._ready.set()
 

@@ -290,7 +290,7 @@ def test_several_pairs_and_several_drives(write_rover: Callable[..., Path]) -> N
     ("extra", "said"),
     [
         ("<leftJoint>left_joit</leftJoint>", "no joint `left_joit` in robot `rover`; did you mean `left_joint`?"),
-        ("<leftJoint>ball_joint</leftJoint>", "joint `ball_joint` is fixed: nothing can drive it"),
+        ("<leftJoint>ball_joint</leftJoint>", "joint `ball_joint` is fixed: it cannot be driven"),
         ("<wheelSeparation>wide</wheelSeparation>", "<wheelSeparation> is `wide`; it must be a number greater than"),
         ("<wheelSeparation>0</wheelSeparation>", "<wheelSeparation> is `0`; it must be a number greater than zero"),
         ("<wheelTorque>nan</wheelTorque>", "<wheelTorque> is `nan`; it must be a number, zero or greater"),

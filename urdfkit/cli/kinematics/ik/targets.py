@@ -58,8 +58,8 @@ def pose_of(arguments: argparse.Namespace) -> list[float] | None:
         rpy = numbers(arguments.rpy, 3, "--rpy")
         if abs(largest := max(rpy, key=abs)) > TURN:
             print(
-                f"urdfkit: warning: --rpy {arguments.rpy}: {largest:g} rad is more than a turn; if it is in degrees, "
-                f"use {','.join(f'{math.radians(angle):.6g}' for angle in rpy)}",
+                f"urdfkit: warning: --rpy {arguments.rpy}: {largest:g} rad is more than one full turn; "
+                f"if it is in degrees, use {','.join(f'{math.radians(angle):.6g}' for angle in rpy)}",
                 file=sys.stderr,
             )
         return [*xyz, *quaternion_of(rpy)]

@@ -28,7 +28,7 @@ class Elements(Files):
         self._expanded += copied
         if self._expanded > MAX_EXPANDED:
             what = f"more than {MAX_EXPANDED:,} elements and attributes"
-            message = f"macros, blocks and includes create {what}; check for nested calls that multiply each other"
+            message = f"macros, blocks and includes create {what}; check for nested calls"
             raise self.placed(Failure("too-many", message))
 
     def _attributes(self, tag: Tag, scope: Scope) -> None:

@@ -117,7 +117,7 @@ class Files(Texts):
             raise self.placed(recursive_include(cycle([shown_path(_target(name)) for name in self.file_stack])))
         self._opened += 1
         if self._opened > MAX_INCLUDES:
-            message = f"more than {MAX_INCLUDES:,} files are included; check for includes that multiply each other"
+            message = f"more than {MAX_INCLUDES:,} files are included; check for nested includes"
             raise self.placed(Failure("too-many", message))
         try:
             document = self.open(Path(file))

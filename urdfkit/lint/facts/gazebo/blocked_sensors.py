@@ -75,7 +75,7 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str,
                 yield block, sensor, f"sensor `{sensor.name}` faces only the shape of link `{seen[0]}`", None
             elif kind in _LIDARS and len(seen) >= _FACING * len(rays) and not _sees_any(solids, eye, rays):
                 part = f"{100.0 * len(seen) / len(rays):.0f} % of its view"
-                message = f"sensor `{sensor.name}` faces link `{seen[0]}` with {part}; turned round, with none"
+                message = f"sensor `{sensor.name}` faces link `{seen[0]}` in {part}; rotated by 180°, it faces no link"
                 yield block, sensor, message, "rpy"
 
 
@@ -130,7 +130,7 @@ def _fan(sensor: Element) -> list[tuple[float, float]]:
 
 
 def _sees_any(solids: list[Solid], eye: Frame, rays: list[tuple[float, float]]) -> bool:
-    """Return whether a lidar sees the robot if it is turned round."""
+    """Return whether a lidar sees the robot if it is rotated by 180°."""
     return any(_first(solids, eye, yaw + pi, pitch) is not None for yaw, pitch in rays)
 
 

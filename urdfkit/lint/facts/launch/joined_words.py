@@ -36,7 +36,7 @@ def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             is_node = name_of(node.func) in ("Node", "LifecycleNode") and word.arg == "arguments"
             for item in word.value.elts if is_node and isinstance(word.value, (ast.List, ast.Tuple)) else ():
                 if isinstance(item, ast.Constant) and isinstance(item.value, str) and re.search(_SEVERAL, item.value):
-                    yield place(source, item), f"`{item.value}` is one word; write each word as a string of its own"
+                    yield place(source, item), f"`{item.value}` is one word; write each word as a separate string"
             if word.arg in _LISTS and isinstance(word.value, ast.List):
                 yield from _in_list(source, word.value.elts)
 
@@ -53,7 +53,7 @@ def _in_arguments(
             first, second = reader.text(before), reader.text(after)
             word = first.rpartition(" ")[2] if first else ""
             if word and second is None and _is_word(after, reader) and re.fullmatch(rf"{_OPTION}|\d+", word):
-                yield place(source, after), f"no blank between `{word}` and the next part of `{key.value}`"
+                yield place(source, after), f"no space between `{word}` and the next part of `{key.value}`"
 
 
 def _in_command(source: Source, parts: list[ast.expr], reader: LaunchReader) -> Iterator[tuple[tuple[int, int], str]]:
@@ -63,11 +63,11 @@ def _in_command(source: Source, parts: list[ast.expr], reader: LaunchReader) -> 
         if (texts[0] or "").endswith(tuple(" \t\n")) or (texts[1] or "").startswith(tuple(" \t\n")):
             continue
         if _is_xacro(before, texts[0]) and (texts[1] is not None or _is_word(after, reader)):
-            yield place(source, after), "no blank between `xacro` and its file: the command is not found"
+            yield place(source, after), "no space between `xacro` and its file: the command is not found"
             continue
         argument = re.match(r"[\w.-]+:=", texts[1] or "")
         if argument is not None and (texts[0] is not None or _is_word(before, reader)):
-            yield place(source, after), f"no blank before `{argument[0]}`: it becomes part of the word before it"
+            yield place(source, after), f"no space before `{argument[0]}`: it becomes part of the word before it"
 
 
 def _is_xacro(node: ast.expr, text: str | None) -> bool:

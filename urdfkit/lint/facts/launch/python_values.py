@@ -105,7 +105,7 @@ def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, rea
         if _is_text(item):
             yield item, f"`{word}` has a string; write the variable of an action without quotes"
         elif isinstance(item, ast.Name) and isinstance(target, ast.Name) and item.id == target.id:
-            yield target, f"`{target.id}` waits for its own end, so it never starts"
+            yield target, f"`{target.id}` is started by its own exit, so it never starts"
 
 
 def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defects:
@@ -137,9 +137,9 @@ def _never_equal(node: ast.Compare, reader: LaunchReader) -> Defects:
         value = _value(one, reader)
         is_lower = isinstance(value, ast.Call) and name_of(value.func) == "lower"
         if is_lower and (text := _constant(other)) is not None and text != text.lower():
-            yield node, f"a text in lower case is never `{text}`; write `{text.lower()}`"
+            yield node, f"a lower-case string is never `{text}`; write `{text.lower()}`"
         elif _performed(one, reader) and isinstance(other, ast.Constant) and isinstance(other.value, bool):
-            yield node, f'this compares a text with {other.value}; compare it with "{str(other.value).lower()}"'
+            yield node, f'this compares a string with {other.value}; compare it with "{str(other.value).lower()}"'
 
 
 def _performed(node: ast.expr, reader: LaunchReader) -> bool:
@@ -153,7 +153,7 @@ def _performed(node: ast.expr, reader: LaunchReader) -> bool:
 def _truth(node: ast.expr, value: ast.expr, reader: LaunchReader) -> Defects:
     """Yield an expression that takes the text of a launch argument as a truth value."""
     if _performed(value, reader):
-        yield node, 'this text is true even if it is `false`; compare it, for example `.lower() == "true"`'
+        yield node, 'this string is always true, even if it is `false`; compare it, for example `.lower() == "true"`'
     elif _called(value, reader) == "LaunchConfiguration":
         yield node, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"
 

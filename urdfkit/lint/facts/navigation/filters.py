@@ -140,7 +140,8 @@ def _of_pair(pair: list[Filter], has_root: bool) -> Defects:
             node, other = wrong.group.find("world_frame"), second if wrong is first else first
             if node is not None:
                 message = (
-                    f"filters `{wrong.name}` and `{other.name}` publish the same transform; write `{frame}` in one"
+                    f"filters `{wrong.name}` and `{other.name}` publish the same transform; "
+                    f"set `world_frame` of one of them to `{frame}`"
                 )
                 yield wrong.source, node, message
     frames = [each.text("base_link_frame") for each in pair]
@@ -170,13 +171,13 @@ def _of_launched(model: Model, every: list[Filter]) -> Defects:
             if other.place is not None:
                 at = other.source.position(other.place[0])
                 value = Node("text", other.source.text[slice(*other.place)], (), (), at.line, at.column)
-                message = f"`{_name(node)}` and `{_name(other)}` have the parameters of one file, so both publish the"
+                message = f"`{_name(node)}` and `{_name(other)}` load the same parameters, so both publish the"
                 yield other.source, value, f"{message} transform from `{one.text('world_frame')}`"
             continue
         found = one if re.search(wrong, names[0]) and not re.search(wrong, names[1]) else two
         if (frame := found.group.find("world_frame")) is not None:
-            message = f"filters `{_name(node)}` and `{_name(other)}` publish the same transform; write `{word}` in one"
-            yield found.source, frame, message
+            message = f"filters `{_name(node)}` and `{_name(other)}` publish the same transform"
+            yield found.source, frame, f"{message}; set `world_frame` of one of them to `{word}`"
 
 
 def _name(node: LaunchedNode) -> str:

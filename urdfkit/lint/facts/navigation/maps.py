@@ -64,7 +64,7 @@ def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
         if origin is not None and origin.kind == "list" and len(origin.items) != 3:
             yield origin, f"`origin` of the map has {len(origin.items)} values; write x, y and yaw"
         elif origin is not None and origin.items and abs(number_of(origin.items[2]) or 0.0) > _TURN:
-            yield origin.items[2], f"yaw of the map is {origin.items[2].text} rad, more than a turn"
+            yield origin.items[2], f"yaw of the map is {origin.items[2].text} rad, more than one full turn"
         negate = root.find("negate")
         if negate is not None and negate.kind == "text" and negate.text.lower() not in ("0", "1", "true", "false"):
             yield negate, f"`negate` of the map is `{negate.text}`; write 0 or 1"

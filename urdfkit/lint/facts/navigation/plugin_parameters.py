@@ -86,7 +86,7 @@ def repeated_plugins(source: Source) -> Defects:
             other = [(key, plugin) for key, plugin in found if _plain(key) != _plain(name)]
             if len(found) == 2 and len(other) == 1:
                 section, place = other[0]
-                yield source, place, f"section `{section}` has the plugin `{name}`, which another section has too"
+                yield source, place, f"section `{section}` has the plugin `{name}`, which another section also uses"
 
 
 def _plain(name: str) -> str:

@@ -105,7 +105,10 @@ def _angles(words: Words) -> Iterator[tuple[Named, str]]:
     for word in words:
         value = number(word.name)
         if value is not None and abs(value) > _MAX_ANGLE:
-            yield word, f"angle {value:g} rad is more than a turn; write {math.radians(value):.6g} if it is in degrees"
+            yield (
+                word,
+                f"angle {value:g} rad is more than one full turn; write {math.radians(value):.6g} if it is in degrees",
+            )
             return
 
 

@@ -34,7 +34,7 @@ def unmirrored_shapes(model: Model) -> Iterator[tuple[Link, Element, str]]:
                 element, value = wrong[0]
                 names = f"`{other.name}` and `{link.name}`"
                 where = f"{'xyz'[k]} is {value:g} m for both"
-                yield link, element, f"shapes of links {names} are not mirrored as the joints below are: {where}"
+                yield link, element, f"shapes of links {names} are not mirrored, unlike the joints below: {where}"
                 break
 
 

@@ -1,4 +1,4 @@
-"""Links of the left and the right side that lie in each other with every joint at zero."""
+"""Links of the left and the right side that overlap with every joint at zero."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def overlapping_twins(model: Model) -> Iterator[tuple[Link, Element, str]]:
             width = min(high[1] - low[1], high2[1] - low2[1])
             if min(depths) > 0.0 and depths[1] > _OVERLAP * width and low[1] + high[1] != low2[1] + high2[1]:
                 shape = next((each.element.find("geometry") for each in shapes_of(other)), None)
-                message = f"links `{link.name}` and `{name}` lie in each other: they share {depths[1]:.3g} m across"
+                message = f"links `{link.name}` and `{name}` overlap by {depths[1]:.3g} m"
                 yield other, shape or other.element, message
 
 

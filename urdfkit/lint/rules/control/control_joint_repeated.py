@@ -54,7 +54,7 @@ class ControlJointRepeated(RobotRule):
         robot = model.robot
         for block in robot.ros2_control:
             entries = [(part.get("name") or "", part) for part in block.element.find_all("joint")]
-            what = f"two entries of <ros2_control> `{block.name}` are for joint"
+            what = f"two entries of <ros2_control> `{block.name}` name joint"
             yield from self._repeated(entries, entries, what, model)
         by_interface: dict[tuple[str, ...], list[Named]] = {}
         for one in robot.transmissions:
@@ -64,7 +64,7 @@ class ControlJointRepeated(RobotRule):
                 by_interface.setdefault(interfaces, []).append((joint.name or "", joint.element))
         every = [entry for entries in by_interface.values() for entry in entries]
         for entries in by_interface.values():
-            yield from self._repeated(entries, every, "two transmissions are for joint", model)
+            yield from self._repeated(entries, every, "two transmissions drive joint", model)
 
     def _repeated(self, entries: list[Named], every: list[Named], what: str, model: Model) -> Findings:
         joints = model.robot.joint_by_name

@@ -53,7 +53,7 @@ class XmlNotWellFormed(FaultRule):
         source = document.source
         if fault.details.get("cause") == MISPLACED:
             before = source.text[: source.offset(fault.position.line, fault.position.column)]
-            blank = Fix("safe", "Delete the blank text before it", (Edit(source.span(0, len(before)), ""),))
+            blank = Fix("safe", "Delete the whitespace before it", (Edit(source.span(0, len(before)), ""),))
             yield self.at(model, fault.position, fault.message, fix=None if before.strip() else blank)
             return
         if fault.details.get("cause") != "no element found":

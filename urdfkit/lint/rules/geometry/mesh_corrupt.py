@@ -77,7 +77,7 @@ class MeshCorrupt(RobotRule):
                 faults[mesh.uri] = _fault(path) if path is not None and exists(path) else ""
                 box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):
-                    faults[mesh.uri] = "has all triangles in one point"
+                    faults[mesh.uri] = "has all vertices at one point"
                 elif box is not None and max(box[1]) > _MOST:
                     faults[mesh.uri] = NOT_FINITE
                 elif box is None and path is not None and path.suffix.lower() in TITLES:

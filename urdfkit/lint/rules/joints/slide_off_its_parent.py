@@ -79,7 +79,7 @@ class SlideOffItsParent(RobotRule):
                 help = f'along <axis xyz="{right}"/> they stay in contact'
                 yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
             elif not fitting and _is_along(joint, axis, parent):
-                help = "the limits are longer than the rail; check whether they are those of each direction"
+                help = "the range of motion is longer than the rail; check whether each limit should be half as large"
                 yield self.at(model, limit.element, message, joint=joint.name, help=help)
 
 

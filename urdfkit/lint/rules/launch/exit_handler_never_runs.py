@@ -45,5 +45,5 @@ class ExitHandlerNeverRuns(RobotRule):
         for source, tree in python_files(model):
             for place, program in never_run(source, tree) if "OnProcessExit" in source.text else ():
                 message = f"`{program}` runs until the launch ends, so `on_exit` starts nothing"
-                help = "name the process whose end the nodes wait for, or use OnProcessStart"
+                help = "name the process that exits before the nodes start, or use OnProcessStart"
                 yield self.at_span(source.span(*place), message, help=help)

@@ -209,9 +209,9 @@ def _parameter(
         elif name == "command" and re.fullmatch(_FILE, attribute.value):
             yield attribute, "`command` is a file and not a program; use the attribute `textfile`, or run xacro"
         elif name == "value" and re.fullmatch(_FILE, attribute.value) and _is_description(attributes):
-            yield attribute, "`value` is the path and not the text of the file; use the attribute `textfile`"
+            yield attribute, "`value` is the path of the file, not its content; use the attribute `textfile`"
         elif name == "textfile" and _is_xacro(_default(attribute.value, defaults), model):
-            yield attribute, '`textfile` reads xacro as it is written; run it: `command="xacro …"`'
+            yield attribute, '`textfile` loads xacro without expanding it; use `command="xacro …"`'
 
 
 def _default(text: str, defaults: dict[str, str]) -> str:

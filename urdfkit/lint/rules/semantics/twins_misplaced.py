@@ -41,7 +41,7 @@ class TwinsMisplaced(RobotRule):
     - sides and ends that are exchanged
     - joints with equal offsets on parents whose shapes are mirrored
     - shapes with equal offsets on links whose joints are mirrored
-    - links of the two sides, except hands and cameras, that lie in each other with every joint at zero
+    - links of the two sides, except hands and cameras, that overlap with every joint at zero
 
     ## Why is this bad?
     A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.

@@ -14,7 +14,7 @@ class TooLarge(FaultRule):
 
     - create an integer of more than 10,000 bits, a string of more than 100,000 characters, or lists of more than
       100,000 elements in total, including nested lists
-    - call ``factorial()``, ``comb()`` or ``perm()`` with more than 1,000, or round to more than 3,000 digits
+    - call ``factorial()``, ``comb()`` or ``perm()`` with an argument above 1,000, or round to more than 3,000 digits
     - be longer than 10,000 characters, be nested more than 200 levels deep, call functions more than 60 levels deep, or
       create lists nested more than 60 levels deep
 

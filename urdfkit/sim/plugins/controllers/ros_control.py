@@ -108,7 +108,7 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
             raise SimulationError(fault, position=part.element.origin.position, code="C701")
     if len(transmission.joints) != 1:
         raise SimulationError(
-            f"transmission `{name}` has {len(transmission.joints)} joints; Gazebo simulates those of one",
+            f"transmission `{name}` has {len(transmission.joints)} joints; Gazebo simulates transmissions of one joint",
             position=place,
             code="C703",
         )

@@ -51,7 +51,7 @@ class AckermannSteering(VelocityDrive):
         self._only_steers = read.flag("steering_only")
         if read.flag("use_actuator_message"):
             raise SimulationError(
-                "steering by actuator messages is not simulated; leave <use_actuator_msg> out and command by Twist",
+                "steering by actuator messages is not simulated; remove <use_actuator_msg> and publish Twist commands",
                 position=read.place("use_actuator_message"),
             )
         self._left_steering = joints_of(setup, read, "left_steering_joint")

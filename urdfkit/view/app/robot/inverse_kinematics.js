@@ -247,7 +247,7 @@ export function ik(page) {
   const free = check("Without collisions", { id: "ik-free", title: "only configurations in which no links collide", changed: (on) => ((dragging.free = on), dragging.choice.clear()) });
   const mapped = h("button", { type: "button", id: "ik-reach", title: "where the link can be placed, by cell of a grid", onclick: () => map() }, "Map of reach");
   const map = () => page.connection.request("reach", { link: dragging.link }).then(
-    ({ resolution }) => page.toast(`computing the map of reach of ${dragging.link} in cells of ${resolution} m …`),
+    ({ resolution }) => page.toast(`computing the reach map of ${dragging.link} in cells of ${resolution} m …`),
     ({ message }) => page.toast(message, "error"),
   );
   const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label, free.label, dragging.choice.element, mapped, dragging.words);

@@ -1,4 +1,4 @@
-// The map of reach in the frame of its base link: cells as cubes coloured by score, all of them or one slice.
+// The reach map in the frame of its base link: cells as cubes coloured by score, all of them or one slice.
 /* global MeshCat */
 
 import { h, short } from "../page/dom.js";

@@ -147,7 +147,7 @@ class Expressions(Loops):
         self._depth += 1
         self._size += 1
         if self._depth > MAX_DEPTH:
-            raise TooLarge(f"it is nested more than {MAX_DEPTH} deep")
+            raise TooLarge(f"it is nested more than {MAX_DEPTH} levels deep")
         part = self._parts.get(type(node))
         if part is None:
             raise SyntaxError(f"{type(node).__name__} is not supported in expressions")

@@ -83,7 +83,7 @@ class Loops:
                 inner.variables = _arguments(names, by_default, values, named)
                 self.budget.spend(cost)
                 if self._calls >= MAX_CALLS_DEEP:
-                    raise TooLarge(f"its functions call each other more than {MAX_CALLS_DEEP} deep")
+                    raise TooLarge(f"its functions call each other more than {MAX_CALLS_DEEP} levels deep")
                 self._calls += 1
                 try:
                     return self.budget.checked(body(inner))

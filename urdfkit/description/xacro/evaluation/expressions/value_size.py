@@ -48,7 +48,7 @@ def steps_of(value: Any) -> int:
         if not below:
             return total
         level = below
-    raise TooLarge(f"it creates lists nested more than {MAX_NESTING} deep")
+    raise TooLarge(f"it creates lists nested more than {MAX_NESTING} levels deep")
 
 
 def items_of(container: Any) -> list[Any]:

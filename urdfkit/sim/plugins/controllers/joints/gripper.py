@@ -91,7 +91,7 @@ class Gripper(RosController):
         """
         position, most = self._read(goal.command)
         if not is_command((position, most)):
-            raise RefusalError(f"a gripper cannot go to {position} with {most}")
+            raise RefusalError(f"a gripper cannot move to {position} with {most}")
         self._wanted, self._most = position, abs(most)
         self._moved = self._present.t
 

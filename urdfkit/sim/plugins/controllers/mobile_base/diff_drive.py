@@ -82,7 +82,8 @@ class DiffDriveController(WheeledBase):
         if not (radius := radius or self.radius(self._left[0])):
             wheel = self._left[0].handle.name
             raise DescriptionError(
-                f"`wheel_radius` is missing, and the wheel of joint `{wheel}` collides with no cylinder or sphere",
+                f"`wheel_radius` is missing, and the wheel of joint `{wheel}` has no cylinder or sphere as its "
+                "collision shape",
                 position=read.place,
             )
         both = read.number("wheel_radius_multiplier", 1.0)
