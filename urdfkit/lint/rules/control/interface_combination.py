@@ -33,7 +33,6 @@ class InterfaceCombination(RobotRule):
          <joint name="elbow">
     -      <command_interface name="postion"/>
     +      <command_interface name="position"/>
-           <state_interface name="position"/>
          </joint>
        </ros2_control>
      </robot>

@@ -35,7 +35,6 @@ class InterfaceLimits(RobotRule):
        <joint name="elbow" type="revolute">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
          <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
        </joint>
        <ros2_control name="arm" type="system">

@@ -31,14 +31,12 @@ class TwoDrivers(RobotRule):
          <child link="left"/>
          <origin xyz="0 0.15 0"/>
          <axis xyz="0 1 0"/>
-         <limit effort="10" velocity="10"/>
        </joint>
        <joint name="right_joint" type="continuous">
          <parent link="base_footprint"/>
          <child link="right"/>
          <origin xyz="0 -0.15 0"/>
          <axis xyz="0 1 0"/>
-         <limit effort="10" velocity="10"/>
        </joint>
     -  <transmission name="left_transmission">
     -    <type>transmission_interface/SimpleTransmission</type>

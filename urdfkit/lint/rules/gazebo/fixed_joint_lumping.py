@@ -31,7 +31,6 @@ class FixedJointLumping(RobotRule):
        <gazebo>
          <plugin name="truth" filename="libgazebo_ros_p3d.so">
            <body_name>imu</body_name>
-           <update_rate>50</update_rate>
          </plugin>
        </gazebo>
      </robot>

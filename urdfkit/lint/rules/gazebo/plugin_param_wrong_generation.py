@@ -24,7 +24,6 @@ class PluginParamWrongGeneration(RobotRule):
        <link name="base_footprint"/>
        <gazebo>
          <plugin name="move" filename="libgazebo_ros_planar_move.so">
-           <update_rate>50</update_rate>
            <publish_odom>true</publish_odom>
     -      <odometryFrame>odom</odometryFrame>
     +      <odometry_frame>odom</odometry_frame>

@@ -32,7 +32,6 @@ class PluginValueUnknown(RobotRule):
            <plugin name="lidar" filename="libgazebo_ros_ray_sensor.so">
     -        <ros><remapping>~/out=scan</remapping></ros>
     +        <ros><remapping>~/out:=scan</remapping></ros>
-             <output_type>sensor_msgs/LaserScan</output_type>
            </plugin>
          </sensor>
        </gazebo>

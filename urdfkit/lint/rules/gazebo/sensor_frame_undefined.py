@@ -27,7 +27,6 @@ class SensorFrameUndefined(RobotRule):
        <gazebo reference="camera">
          <sensor name="eye" type="camera">
            <plugin name="eye" filename="libgazebo_ros_camera.so">
-             <cameraName>eye</cameraName>
     -        <frameName>camera_link</frameName>
     +        <frameName>camera</frameName>
            </plugin>

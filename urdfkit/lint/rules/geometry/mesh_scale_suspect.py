@@ -55,7 +55,6 @@ class MeshScaleSuspect(RobotRule):
        <joint name="mount" type="fixed">
          <parent link="base"/>
          <child link="tool"/>
-         <origin xyz="0 0 0.1"/>
        </joint>
      </robot>
     ```

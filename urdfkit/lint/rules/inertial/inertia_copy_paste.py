@@ -33,7 +33,6 @@ class InertiaCopyPaste(RobotRule):
     -      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
     +      <inertia ixx="0.00667" ixy="0" ixz="0" iyy="0.01083" iyz="0" izz="0.01083"/>
          </inertial>
-         <visual><geometry><box size="0.3 0.2 0.2"/></geometry></visual>
        </link>
     -  <link name="lower">
     -    <inertial>

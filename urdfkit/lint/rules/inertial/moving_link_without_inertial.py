@@ -38,7 +38,6 @@ class MovingLinkWithoutInertial(RobotRule):
     +      <mass value="0.2"/>
     +      <inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0008"/>
     +    </inertial>
-         <visual><geometry><sphere radius="0.1"/></geometry></visual>
        </link>
        <joint name="axle" type="continuous">
          <parent link="base"/>

@@ -24,7 +24,6 @@ class AxisMissing(RobotRule):
        <link name="world"/>
        <link name="arm">
          <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
-         <visual><geometry><sphere radius="0.1"/></geometry></visual>
        </link>
        <joint name="elbow" type="continuous">
          <parent link="world"/>

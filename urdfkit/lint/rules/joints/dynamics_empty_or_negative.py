@@ -24,7 +24,6 @@ class DynamicsEmptyOrNegative(RobotRule):
        <joint name="elbow" type="continuous">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
     -    <dynamics damping="-0.1"/>
     +    <dynamics damping="0.1"/>
        </joint>

@@ -24,7 +24,6 @@ class DynamicsExceedEffort(RobotRule):
        <joint name="elbow" type="continuous">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
          <limit effort="10" velocity="2"/>
     -    <dynamics damping="5000"/>
     +    <dynamics damping="0.5"/>

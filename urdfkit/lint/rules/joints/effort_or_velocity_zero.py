@@ -25,7 +25,6 @@ class EffortOrVelocityZero(RobotRule):
        <joint name="elbow" type="revolute">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
     -    <limit lower="-1" upper="1" effort="0" velocity="2"/>
     +    <limit lower="-1" upper="1" effort="10" velocity="2"/>
        </joint>

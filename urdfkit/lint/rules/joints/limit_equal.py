@@ -24,7 +24,6 @@ class LimitEqual(RobotRule):
        <joint name="elbow" type="revolute">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
     -    <limit effort="10" velocity="2"/>
     +    <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
        </joint>

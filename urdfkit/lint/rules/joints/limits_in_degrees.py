@@ -26,7 +26,6 @@ class LimitsInDegrees(RobotRule):
        <joint name="elbow" type="revolute">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
     -    <limit lower="-90" upper="90" effort="10" velocity="2"/>
     +    <limit lower="-1.570796" upper="1.570796" effort="10" velocity="2"/>
        </joint>

@@ -26,7 +26,6 @@ class SafetyControllerInconsistent(RobotRule):
        <joint name="elbow" type="revolute">
          <parent link="base"/>
          <child link="arm"/>
-         <axis xyz="0 1 0"/>
          <limit lower="-1" upper="1" effort="10" velocity="2"/>
     -    <safety_controller soft_lower_limit="-1.5" soft_upper_limit="0.9" k_position="10" k_velocity="5"/>
     +    <safety_controller soft_lower_limit="-0.9" soft_upper_limit="0.9" k_position="10" k_velocity="5"/>

@@ -37,7 +37,6 @@ class StrokeTooLong(RobotRule):
          </inertial>
        </link>
        <link name="finger">
-         <visual><geometry><box size="0.02 0.01 0.06"/></geometry></visual>
          <inertial>
            <mass value="0.05"/>
            <inertia ixx="1.54e-05" ixy="0" ixz="0" iyy="1.67e-05" iyz="0" izz="2.08e-06"/>

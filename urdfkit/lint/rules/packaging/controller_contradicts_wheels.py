@@ -42,7 +42,6 @@ class ControllerContradictsWheels(RobotRule):
          right_wheel_names: [right_wheel_joint]
     -    wheel_separation: 0.6
     +    wheel_separation: 0.3
-         wheel_radius: 0.05
     ```
 
     ## References

@@ -24,7 +24,6 @@ class JointWithoutController(RobotRule):
     ```diff
      controller_manager:
        ros__parameters:
-         update_rate: 100
          arm_controller:
            type: joint_trajectory_controller/JointTrajectoryController
 

@@ -24,11 +24,8 @@ class ParameterTypeWrong(RobotRule):
            type: diff_drive_controller/DiffDriveController
      base_controller:
        ros__parameters:
-         left_wheel_names: [left]
-         right_wheel_names: [right]
     -    wheel_separation: 1
     +    wheel_separation: 1.0
-         wheel_radius: 0.1
     ```
     """
 

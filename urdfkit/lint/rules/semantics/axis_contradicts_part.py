@@ -40,18 +40,15 @@ class AxisContradictsPart(RobotRule):
     ```diff
      <robot name="cart">
        <link name="base">
-         <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
          <inertial>
            <mass value="8"/>
            <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
          </inertial>
        </link>
        <link name="left_wheel">
-         <visual><geometry><sphere radius="0.1"/></geometry></visual>
          <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
        </link>
        <link name="right_wheel">
-         <visual><geometry><sphere radius="0.1"/></geometry></visual>
          <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
        </link>
        <joint name="left_wheel_joint" type="continuous">

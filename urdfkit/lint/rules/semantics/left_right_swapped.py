@@ -41,8 +41,6 @@ class LeftRightSwapped(RobotRule):
            <leftJoint>left_joint</leftJoint>
            <rightJoint>right_joint</rightJoint>
            <wheelSeparation>0.3</wheelSeparation>
-           <wheelDiameter>0.1</wheelDiameter>
-           <robotBaseFrame>base</robotBaseFrame>
          </plugin>
        </gazebo>
      </robot>

@@ -50,7 +50,6 @@ class TwinsMisplaced(RobotRule):
     ```diff
      <robot name="cart">
        <link name="base">
-         <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
          <inertial>
            <mass value="8"/>
            <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>

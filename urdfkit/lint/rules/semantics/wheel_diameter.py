@@ -44,7 +44,6 @@ class WheelDiameter(RobotRule):
            <wheelSeparation>0.3</wheelSeparation>
     -      <wheelDiameter>0.2</wheelDiameter>
     +      <wheelDiameter>0.1</wheelDiameter>
-           <robotBaseFrame>base</robotBaseFrame>
          </plugin>
        </gazebo>
      </robot>

@@ -48,8 +48,6 @@ class WheelSeparation(RobotRule):
            <rightJoint>right_joint</rightJoint>
     -      <wheelSeparation>0.2</wheelSeparation>
     +      <wheelSeparation>0.3</wheelSeparation>
-           <wheelDiameter>0.1</wheelDiameter>
-           <robotBaseFrame>base</robotBaseFrame>
          </plugin>
        </gazebo>
      </robot>
