@@ -11,29 +11,21 @@ GAZEBO_ROS_1 = (
 GAZEBO_ROS_2 = (Parameter("ros", "ros"),)
 """The ``<ros>`` block (namespace, remapping, argument, parameter, qos) that ``gazebo_ros::Node`` reads in ROS 2."""
 
-GZ_LIMITS = (
-    Parameter("min_velocity", "min_velocity", unit="[m/s, rad/s]"),
-    Parameter("max_velocity", "max_velocity", unit="[m/s, rad/s]"),
-    Parameter("min_acceleration", "min_acceleration", unit="[m/s², rad/s²]"),
-    Parameter("max_acceleration", "max_acceleration", unit="[m/s², rad/s²]"),
-    Parameter("min_jerk", "min_jerk", unit="[m/s³, rad/s³]"),
-    Parameter("max_jerk", "max_jerk", unit="[m/s³, rad/s³]"),
+_LIMITS = (("velocity", ""), ("acceleration", "²"), ("jerk", "³"))
+"""Quantity → exponent of the second in its unit."""
+
+GZ_LIMITS = tuple(
+    Parameter(f"{end}_{quantity}", f"{end}_{quantity}", unit=f"[m/s{power}, rad/s{power}]")
+    for quantity, power in _LIMITS
+    for end in ("min", "max")
 )
 """Limits that apply to both the linear and the angular velocity."""
 
-GZ_SEPARATE_LIMITS = (
-    Parameter("min_linear_velocity", "min_linear_velocity", unit="[m/s]"),
-    Parameter("max_linear_velocity", "max_linear_velocity", unit="[m/s]"),
-    Parameter("min_angular_velocity", "min_angular_velocity", unit="[rad/s]"),
-    Parameter("max_angular_velocity", "max_angular_velocity", unit="[rad/s]"),
-    Parameter("min_linear_acceleration", "min_linear_acceleration", unit="[m/s²]"),
-    Parameter("max_linear_acceleration", "max_linear_acceleration", unit="[m/s²]"),
-    Parameter("min_angular_acceleration", "min_angular_acceleration", unit="[rad/s²]"),
-    Parameter("max_angular_acceleration", "max_angular_acceleration", unit="[rad/s²]"),
-    Parameter("min_linear_jerk", "min_linear_jerk", unit="[m/s³]"),
-    Parameter("max_linear_jerk", "max_linear_jerk", unit="[m/s³]"),
-    Parameter("min_angular_jerk", "min_angular_jerk", unit="[rad/s³]"),
-    Parameter("max_angular_jerk", "max_angular_jerk", unit="[rad/s³]"),
+GZ_SEPARATE_LIMITS = tuple(
+    Parameter(f"{end}_{kind}_{quantity}", f"{end}_{kind}_{quantity}", unit=f"[{unit}/s{power}]")
+    for quantity, power in _LIMITS
+    for kind, unit in (("linear", "m"), ("angular", "rad"))
+    for end in ("min", "max")
 )
 """Limits of either the linear or the angular velocity; they override the common limits."""
 

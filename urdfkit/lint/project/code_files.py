@@ -1,5 +1,6 @@
 """Texts of the code and other files of a package that no reader of urdfkit parses."""
 
+import ast
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -39,3 +40,11 @@ def code_texts(folder: Path, endings: tuple[str, ...], without: tuple[str, ...] 
                     yield path, path.read_text("utf-8", "replace")
             except OSError:
                 continue
+
+
+def python_tree(text: str) -> ast.Module | None:
+    """Return the syntax tree of a module; None if it has a syntax error or is nested too deeply."""
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None

@@ -17,6 +17,7 @@ from urdfkit.lint.facts.connections.controller_managers import WITHOUT_MANAGER, 
 from urdfkit.lint.facts.connections.trees import full_name, is_constant, is_ros1, launch_trees, place_of
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.facts.gazebo.spawned_models import SPAWNERS
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -35,7 +36,6 @@ _READ = {
 }
 """Package → topics that its node subscribes to."""
 
-_SPAWNERS = ("create", "spawn_entity.py")
 _BROADCASTERS = r"joint_state_(?:broadcaster|controller)"
 _OTHERS = "joint_state_publisher"
 """Part of the names of Gazebo plugins that publish ``joint_states``."""
@@ -117,7 +117,7 @@ def _readers(tree: LaunchContents, base: str) -> Iterator[_Connection]:
     for node in tree.nodes:
         if base in _READ.get(node.package, ()) and not node.is_open:
             yield _connection(node, base)
-        elif base == "robot_description" and node.program in _SPAWNERS:
+        elif base == "robot_description" and (node.package, node.program) in SPAWNERS:
             for before, word in zip(node.arguments, node.arguments[1:], strict=False):
                 if before.text == "-topic":
                     yield _Connection(node, full_name(node, word.text), word.text != base)

@@ -15,14 +15,11 @@ from urdfkit.description.xml.source import Span
 from urdfkit.errors import UrdfkitError
 from urdfkit.lint.facts.connections.controller_managers import WITHOUT_MANAGER
 from urdfkit.lint.facts.connections.trees import launch_trees, place_of
+from urdfkit.lint.facts.gazebo.spawned_models import SPAWNERS
 from urdfkit.lint.facts.launch.actions import actions_of
 from urdfkit.lint.facts.parameters.launch_arguments import expected_values, passed_values
 from urdfkit.lint.model.model import Model
 
-_SPAWN_ROBOT = (
-    *(("gazebo_ros", name) for name in ("spawn_model", "spawn_entity.py")),
-    *(("ros_gz_sim", "create"), ("ros_ign_gazebo", "create")),
-)
 _PLUGIN = r"gazebo_ros_control|ros2_control"
 _INVERTED = {"true": "false", "false": "true", "True": "False", "False": "True", "1": "0", "0": "1"}
 
@@ -32,7 +29,7 @@ def left_out_plugins(model: Model) -> Iterator[tuple[Span, str]]:
     for tree in launch_trees(model):
         nodes = [node for node in tree.nodes if not node.is_skipped]
         spawner = next((node for node in nodes if node.package == "controller_manager" and node.arguments), None)
-        is_spawned = any((node.package, node.program) in _SPAWN_ROBOT for node in nodes)
+        is_spawned = any((node.package, node.program) in SPAWNERS for node in nodes)
         is_managed = any(re.search(r"control_node|controller_manager|_hw|hardware", node.program) for node in nodes)
         path = model.expanded.path.resolve()
         commands = [command for command in tree.commands if command.description.resolve() == path]

@@ -10,14 +10,22 @@ from urdfkit.lint.facts.control.launched_nodes import Started
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
 from urdfkit.lint.model.model import Model
 
-_PROGRAMS = ("spawn_model", "spawn_entity.py", "create")
+SPAWNERS = {
+    ("gazebo_ros", "spawn_model"): "-param",
+    ("gazebo_ros", "spawn_entity.py"): "-topic",
+    ("ros_gz_sim", "create"): "-topic",
+    ("ros_ign_gazebo", "create"): "-topic",
+}
+"""Package and program that spawns a robot → option with the parameter or topic of its description."""
+
+_SOURCES = {program: option for (_, program), option in SPAWNERS.items()}
 _MAX_DEPTH = 0.05
 """Accepted depth of the lowest point below the plane of the ground [m]."""
 
 
 def spawned_in_the_ground(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
     """Yield offset, text and message of a height that puts a part of the robot below the ground at zero."""
-    if node.program not in _PROGRAMS or model.is_incomplete or len(model.robot.roots()) != 1:
+    if node.program not in _SOURCES or model.is_incomplete or len(model.robot.roots()) != 1:
         return
     if model.robot.roots()[0].name == "world" or not any(joint.type == "continuous" for joint in model.robot.joints):
         return
@@ -46,7 +54,7 @@ def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str
 
 def names_as_files(node: Started) -> Iterator[tuple[int, str, str]]:
     """Yield offset, text and message of a file that is no path but the name of a topic or parameter."""
-    source = {"spawn_model": "-param", "spawn_entity.py": "-topic", "create": "-topic"}.get(node.program)
+    source = _SOURCES.get(node.program)
     for option, word in zip(node.arguments, node.arguments[1:], strict=False):
         if source is None or option is None or word is None or option.name != "-file":
             continue

@@ -20,7 +20,7 @@ from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.parameters.node_parameters import kind_of, parameters
 from urdfkit.lint.facts.parameters.schemas import schemas
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import node_texts
+from urdfkit.lint.project.code_files import node_texts, python_tree
 
 _OPEN = r"dynamic_typing|allow_undeclared_parameters|automatically_declare_parameters_from_overrides"
 """Matches code that accepts parameters of other types."""
@@ -85,9 +85,8 @@ def _declared(model: Model, names: set[str]) -> dict[str, dict[str, str]]:
 
 
 def _in_python(text: str) -> Iterator[tuple[str, str]]:
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    tree = python_tree(text)
+    if tree is None:
         return
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
         pairs: list[list[ast.expr]] = []

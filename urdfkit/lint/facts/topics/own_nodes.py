@@ -13,7 +13,7 @@ from pathlib import Path
 from urdfkit.description.launch.python_constants import name_of
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import node_texts
+from urdfkit.lint.project.code_files import node_texts, python_tree
 
 CLIENTS = r"\brclpy\b|\brospy\b|\brclcpp\b|\bros/ros\.h\b"
 """Matches code that uses a client library of ROS."""
@@ -80,9 +80,8 @@ def own_subscriptions(model: Model, package: str) -> dict[str, str]:
 
 def _in_python(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | None, str | None]]:
     """Yield type and topic of each call of functions; None for computed ones, and a type None for a syntax error."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    tree = python_tree(text)
+    if tree is None:
         yield None, None
         return
     imports = (node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom))

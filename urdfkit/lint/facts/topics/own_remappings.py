@@ -18,7 +18,7 @@ from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
 from urdfkit.lint.facts.topics.own_nodes import CLIENTS, own_folder
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import node_texts
+from urdfkit.lint.project.code_files import node_texts, python_tree
 
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events", "diagnostics", "robot_description")
 """Topics that libraries read and publish in nodes that do not name them."""
@@ -113,9 +113,8 @@ def _names(model: Model, package: str) -> frozenset[str] | None:
 
 def _in_python(text: str) -> Iterator[str | None]:
     """Yield the names in the code of a module; None for computed names, and for other base classes."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    tree = python_tree(text)
+    if tree is None:
         yield None
         return
     own = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
