@@ -1,7 +1,5 @@
 """Build files of packages: CMakeLists.txt, package.xml, setup.py and setup.cfg with source positions."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from functools import cached_property

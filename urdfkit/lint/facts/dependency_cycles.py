@@ -1,7 +1,5 @@
 """Cycles of dependencies between the packages of a workspace."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Calls of one macro whose numbers are equal although their elements must differ."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.source import Position

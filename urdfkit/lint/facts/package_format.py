@@ -1,7 +1,5 @@
 """Defects of a package.xml that its readers refuse (catkin_pkg 1.1, package.py; REP 127, 140 and 149)."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Defects of setup.py and setup.cfg of ROS 2 packages in Python: installed files, entry points and their folder."""
 
-from __future__ import annotations
-
 import ast
 import fnmatch
 import re

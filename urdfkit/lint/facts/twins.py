@@ -1,7 +1,5 @@
 """Twins: joints of one parent link whose names differ in the side or the end of the robot only."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

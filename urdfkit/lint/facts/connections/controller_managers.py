@@ -4,8 +4,6 @@ Sources: ros2_control (controller_manager/controller_manager/spawner.py: a relat
 spawner) and gz_ros2_control (src/gz_ros2_control_plugin.cpp: the namespace and ``controller_manager_name``).
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ Source: rcl (rcl_yaml_param_parser/src/parse.c) and rclcpp (parameter_map.cpp): 
 name; ``*`` stands for one part of the name and ``**`` for any number of parts.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterator

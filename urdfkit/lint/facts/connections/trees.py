@@ -1,7 +1,5 @@
 """Launch files with the files that they include: the nodes that one command starts, with evaluated namespaces."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from pathlib import Path
 

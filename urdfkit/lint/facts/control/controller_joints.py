@@ -1,7 +1,5 @@
 """Controllers in YAML: their names, types and joints, with source offsets."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import lru_cache

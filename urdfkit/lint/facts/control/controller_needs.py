@@ -3,8 +3,6 @@
 Source: ros2_controllers, *_parameters.yaml and joint_trajectory_controller (Humble to Rolling).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Controller settings in YAML for ROS 1 and ROS 2: types, parameters, misspelt parameters."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Wheels of the ``diff_drive_controller`` and of steering controllers in YAML."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

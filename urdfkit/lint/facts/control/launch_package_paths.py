@@ -1,7 +1,5 @@
 """Package paths in launch files, read without executing the files; computed paths are ignored."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Collection, Iterator

@@ -1,7 +1,5 @@
 """Nodes that launch files start, with their constant arguments; launch files are not executed."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import lru_cache

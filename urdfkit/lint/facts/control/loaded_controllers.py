@@ -1,7 +1,5 @@
 """Controllers that a simulation of the robot loads, with the source positions of their parameters."""
 
-from __future__ import annotations
-
 from urdfkit.description.control import Settings, find_configuration, node_settings
 from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.control.parameter_yaml import parse_settings

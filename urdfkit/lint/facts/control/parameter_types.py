@@ -3,8 +3,6 @@
 Sources: ros2_controllers, *_parameters.yaml (Humble to Rolling); rcl, rcl_yaml_param_parser/src/parse.c.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """ROS 2 controllers in YAML, the interfaces they use, and the interfaces of the hardware."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import lru_cache

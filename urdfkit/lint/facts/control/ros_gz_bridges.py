@@ -1,7 +1,5 @@
 """ros_gz_bridge: message type pairs, and the bridges configured in launch files and YAML."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Namespaces of controllers in ROS 1: where launch files load their parameters, and where the spawner reads them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

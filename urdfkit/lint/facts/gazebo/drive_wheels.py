@@ -1,7 +1,5 @@
 """Drives with wheels on two sides: their joints and the wheel positions at zero joint positions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from urdfkit.description.plugins import PluginSpec

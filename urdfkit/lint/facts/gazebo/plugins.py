@@ -1,7 +1,5 @@
 """Gazebo plugins: specifications, generations, references to links and joints, lumped links."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.plugins import Parameter, PluginSpec

@@ -1,7 +1,5 @@
 """Wheels of a robot by their joints and shapes, without a drive that names them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from math import hypot

@@ -1,7 +1,5 @@
 """Topics that sensors publish on: topics in the description, else the defaults of the plugins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.plugins import PluginSpec

@@ -5,8 +5,6 @@ wheel is the first of a pair), Humble to Rolling; navigation2 (smac_planner_hybr
 regulated_pure_pursuit_controller: parameter_handler.cpp).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

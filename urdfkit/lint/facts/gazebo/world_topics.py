@@ -1,7 +1,5 @@
 """Topics of Gazebo with the name of a world that the packages do not have."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

@@ -5,8 +5,6 @@ slam_toolbox (config/mapper_params_online_async.yaml), nav2_amcl (src/amcl_node.
 nav2_map_server (map_server.cpp), robot_state_publisher (robot_state_publisher.cpp), joint_state_publisher (README.md).
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 from functools import cache

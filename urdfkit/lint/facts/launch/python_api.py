@@ -1,7 +1,5 @@
 """Names of the Python packages that launch files import: their modules, classes and keywords."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from urdfkit.defect_message import Suggestion

@@ -1,7 +1,5 @@
 """Names in Python launch files: imported classes, and names that are defined nowhere."""
 
-from __future__ import annotations
-
 import ast
 import builtins
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Launch files and descriptions that receive arguments: the names that they accept."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Records of a launch file: its arguments, includes, xacro commands and nodes."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.record import field, record

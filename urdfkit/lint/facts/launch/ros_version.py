@@ -1,7 +1,5 @@
 """ROS version that reads an XML launch file."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

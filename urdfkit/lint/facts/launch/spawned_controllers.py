@@ -1,7 +1,5 @@
 """Controllers that ROS 1 launch files spawn, and the parameter files that define and load them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

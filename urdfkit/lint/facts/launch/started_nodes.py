@@ -1,7 +1,5 @@
 """Nodes that ROS 2 launch files start, with the names of their parameters."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 

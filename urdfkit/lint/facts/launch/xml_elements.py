@@ -1,7 +1,5 @@
 """Elements and attributes of XML launch files: of roslaunch (ROS 1) and of launch_xml (ROS 2)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from urdfkit.record import record

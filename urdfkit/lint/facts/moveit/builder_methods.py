@@ -4,8 +4,6 @@ Source: moveit_configs_utils, moveit_configs_builder.py (Humble to Rolling): a f
 planning pipeline has the file ``config/<pipeline>_planning.yaml``, or one of moveit_configs_utils.
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 from pathlib import Path

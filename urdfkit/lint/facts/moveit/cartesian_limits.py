@@ -4,8 +4,6 @@ Source: pilz_industrial_motion_planner (Noetic to Rolling): all four limits are 
 default of the deceleration are negative.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion

@@ -3,8 +3,6 @@
 Source: moveit_configs_utils, moveit_configs_builder.py (Humble to Rolling).
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator, Mapping

@@ -3,8 +3,6 @@
 Source: moveit_plugins/moveit_simple_controller_manager, Noetic to Rolling.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 

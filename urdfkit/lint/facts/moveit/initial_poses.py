@@ -3,8 +3,6 @@
 The list is that of moveit_fake_controller_manager (Noetic); its source was not compared.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element

@@ -1,7 +1,5 @@
 """Limits of joints that exclude all states of the SRDF, although limits with opposite signs would include them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Joint, Robot

@@ -4,8 +4,6 @@ Sources: moveit2, moveit_ros/planning/kinematics_plugin_loader, moveit_core/join
 moveit_plugins/moveit_simple_controller_manager (Noetic to Rolling).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Sources: srdfdom, src/model.cpp (elements); moveit_core, robot_model/src/robot_model.cpp (groups, states).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator
 from functools import lru_cache

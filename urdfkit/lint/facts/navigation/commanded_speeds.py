@@ -4,8 +4,6 @@ The parameters are those of nav2_regulated_pure_pursuit_controller, nav2_dwb_con
 only the last were compared with the source.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source

@@ -1,7 +1,5 @@
 """Frames of navigation: names that only one node uses, and links that would have two parents."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source

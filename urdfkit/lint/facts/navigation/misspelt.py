@@ -1,7 +1,5 @@
 """Misspelt nodes, plugins, topics and parameters of Nav2 and of move_base."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """Transforms of the odometry that a drive controller and a filter of robot_localization both publish."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source

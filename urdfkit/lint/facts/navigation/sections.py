@@ -1,7 +1,5 @@
 """Parameter files of navigation: the sections of ROS 2 nodes, the costmaps of ROS 1."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source

@@ -3,8 +3,6 @@
 The behaviour is that of costmap_2d, nav2_costmap_2d, slam_toolbox and gmapping; the sources were not compared.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import GazeboBlock

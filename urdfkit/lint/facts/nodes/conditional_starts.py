@@ -1,7 +1,5 @@
 """Nodes and includes of launch files with the launch arguments that decide whether they start."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Descriptions in xacro that Python launch files load as text."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

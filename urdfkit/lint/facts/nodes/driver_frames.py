@@ -1,7 +1,5 @@
 """Frames that launch files give to drivers of sensors, and that the robot does not have."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

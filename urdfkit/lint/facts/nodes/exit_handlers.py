@@ -1,7 +1,5 @@
 """Event handlers of Python launch files that wait for the end of a node that does not end."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 

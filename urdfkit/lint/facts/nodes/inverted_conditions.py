@@ -4,8 +4,6 @@ Drivers must not start in a simulation only, and Gazebo not without one only. An
 start if the argument is false only.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

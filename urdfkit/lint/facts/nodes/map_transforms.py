@@ -1,7 +1,5 @@
 """Nodes that publish the transform from the map to the odometry, and the launch arguments that start them together."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import combinations
 

@@ -1,7 +1,5 @@
 """Namespaces that elements of launch files set, and launch files that are included in a namespace."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

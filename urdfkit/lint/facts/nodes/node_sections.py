@@ -1,7 +1,5 @@
 """Parameters of launched nodes in YAML files."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

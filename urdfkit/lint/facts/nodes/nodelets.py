@@ -4,8 +4,6 @@ Source: ros/nodelet_core (nodelet/src/nodelet.cpp, Noetic): ``nodelet load TYPE 
 ``MANAGER/load_nodelet``.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -3,8 +3,6 @@
 Functions that consist of assignments and a ``return`` are written out in the tree already (`python_inlining`).
 """
 
-from __future__ import annotations
-
 import ast
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """Nodes that launch files start, with their names, parameter files and remappings."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Paths in packages that contain launch arguments, with the values that defaults and including files give these."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

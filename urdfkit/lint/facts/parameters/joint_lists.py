@@ -1,7 +1,5 @@
 """Positions of joints in the parameters of a robot's own nodes: beyond their limits, or in degrees or millimetres."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ Sources: ros2/launch (declare_launch_argument.py, evaluate_condition_expression_
 substitution_args.py).
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -5,8 +5,6 @@ Sources (Noetic): ros-planning/navigation (amcl_node.cpp, costmap_2d_ros.cpp), r
 (ros_filter.cpp).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

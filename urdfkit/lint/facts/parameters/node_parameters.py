@@ -1,7 +1,5 @@
 """Parameters of well-known ROS 2 nodes in YAML: values of the wrong type, names of other nodes, nested lists."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from fnmatch import fnmatchcase

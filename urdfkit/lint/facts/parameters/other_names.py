@@ -1,7 +1,5 @@
 """Parameters under the names that other releases or nodes give them, one finding for each group."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from urdfkit.defect_message import Suggestion

@@ -1,7 +1,5 @@
 """Axes of consecutive joints: the lines that they turn about."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from math import dist

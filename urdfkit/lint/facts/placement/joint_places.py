@@ -1,7 +1,5 @@
 """Where the frames of joints lie in the shapes of their parent links: on the surface, outside or inside."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import box_around

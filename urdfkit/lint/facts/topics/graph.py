@@ -5,8 +5,6 @@ steering_controllers_library.cpp, tricycle_controller.cpp). The packages in `_WI
 sources.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Nodes that read the topic on which they publish, and nodes that publish on the same topic."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

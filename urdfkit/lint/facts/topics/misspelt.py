@@ -3,8 +3,6 @@
 A name that occurs twice in the files of the packages is accepted, because two nodes can exchange messages on it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

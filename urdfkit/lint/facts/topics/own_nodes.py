@@ -3,8 +3,6 @@
 The calls are those of rclpy, rospy, rclcpp and roscpp.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ The calls with names of topics, services and actions are those of rclpy, rospy, 
 message_filters.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Topics that the robot itself has: those of Gazebo plugins and sensors, of bridges and of controllers."""
 
-from __future__ import annotations
-
 from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.controller_joints import controllers

@@ -1,7 +1,5 @@
 """Words: the names in the related files, the description and the code of their packages."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Collection

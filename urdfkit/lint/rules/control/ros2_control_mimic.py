@@ -1,7 +1,5 @@
 """C720 ros2-control-mimic-contradiction."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """C713 two-drivers-one-joint."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control

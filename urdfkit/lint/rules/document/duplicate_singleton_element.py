@@ -1,7 +1,5 @@
 """E013 duplicate-singleton-element."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.fix_builders import without_element

@@ -1,7 +1,5 @@
 """Z820 duplicate-sensor-or-plugin-name."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.finding import Finding, Severity

@@ -1,7 +1,5 @@
 """Z828 plugin-file-missing."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Z802 plugin-joint-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.plugins import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Plugin

@@ -1,7 +1,5 @@
 """G611 nonpositive-primitive."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Collision, Link, Sphere, Visual
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers

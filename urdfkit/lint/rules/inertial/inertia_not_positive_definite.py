@@ -1,7 +1,5 @@
 """I502 inertia-not-positive-definite."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import principal_moments, reordered
 from urdfkit.lint.finding import Severity

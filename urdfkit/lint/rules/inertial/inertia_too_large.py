@@ -1,7 +1,5 @@
 """I507 inertia-vs-geometry-too-large."""
 
-from __future__ import annotations
-
 from math import sqrt
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies

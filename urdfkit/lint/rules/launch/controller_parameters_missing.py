@@ -1,7 +1,5 @@
 """L112 controller-parameters-missing."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source

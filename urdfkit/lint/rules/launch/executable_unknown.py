@@ -1,7 +1,5 @@
 """L103 executable-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.launch.executables import Executables
 from urdfkit.lint.rule import Findings, Model, RobotRule

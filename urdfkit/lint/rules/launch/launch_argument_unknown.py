@@ -1,7 +1,5 @@
 """L102 launch-argument-unknown."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """L109 launch-element-invalid."""
 
-from __future__ import annotations
-
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding, Severity

@@ -1,7 +1,5 @@
 """L116 launch-include-cycle."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.lint.facts.launch.records import LaunchActions

@@ -1,7 +1,5 @@
 """L124 map-transform-published-twice."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

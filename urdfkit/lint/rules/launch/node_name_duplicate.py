@@ -1,7 +1,5 @@
 """L111 node-name-duplicate."""
 
-from __future__ import annotations
-
 from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """L120 parameters-loaded-twice."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FIXED = ("command", "file", "ns", "param")

@@ -1,7 +1,5 @@
 """L106 python-launch-api-misused."""
 
-from __future__ import annotations
-
 import ast
 
 from urdfkit.defect_message import Suggestion

@@ -1,7 +1,5 @@
 """L105 python-launch-name-undefined."""
 
-from __future__ import annotations
-
 import ast
 
 from urdfkit.defect_message import Suggestion

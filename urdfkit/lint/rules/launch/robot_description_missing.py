@@ -1,7 +1,5 @@
 """L113 robot-description-missing."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source

@@ -1,7 +1,5 @@
 """L119 xacro-not-expanded."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """M108 moveit-name-undefined."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Source

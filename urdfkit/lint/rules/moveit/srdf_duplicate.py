@@ -1,7 +1,5 @@
 """M106 srdf-duplicate."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 
 from urdfkit.description.xml.element import Element

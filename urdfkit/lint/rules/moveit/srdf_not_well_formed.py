@@ -1,7 +1,5 @@
 """M101 srdf-not-well-formed."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Source

@@ -1,7 +1,5 @@
 """K973 build-file-inconsistent."""
 
-from __future__ import annotations
-
 import re
 from itertools import pairwise
 

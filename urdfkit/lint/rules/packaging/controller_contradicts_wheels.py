@@ -1,7 +1,5 @@
 """K970 controller-contradicts-wheels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Cylinder, Sphere

@@ -1,7 +1,5 @@
 """K962 controller-settings-misspelt."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.defect_message import Suggestion

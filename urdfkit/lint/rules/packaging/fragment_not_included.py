@@ -1,7 +1,5 @@
 """K991 fragment-not-included."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """K966 yaml-not-well-formed."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Source

@@ -1,7 +1,5 @@
 """S912 camera-frame-not-optical."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import rotation_of

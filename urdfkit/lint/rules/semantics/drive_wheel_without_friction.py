@@ -1,7 +1,5 @@
 """S914 drive-wheel-without-friction."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Joint

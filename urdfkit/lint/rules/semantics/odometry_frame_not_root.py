@@ -1,7 +1,5 @@
 """S913 odometry-frame-not-root."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _FRAMES = (

@@ -1,7 +1,5 @@
 """X125 expansion-error."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import FaultRule, Findings, Model

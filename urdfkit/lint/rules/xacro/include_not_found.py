@@ -1,7 +1,5 @@
 """X113 include-not-found."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_folder
