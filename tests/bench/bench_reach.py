@@ -1,4 +1,4 @@
-"""Maps of reach: CPU time, share of the poses that 100 restarts find, and solutions by Pinocchio.
+"""Reach maps: CPU time, share of the poses that 100 restarts find, and solutions by Pinocchio.
 
 Run it: ``python -m tests.bench.bench_reach [--arms NAME ...] [--poses 20000] [--resolution 0.05] [--json]``. The poses
 compared are drawn from the grid of each map and three cells around it.

@@ -231,7 +231,7 @@ def test_the_map_of_reach_is_a_layer(page, until, keep) -> None:
     # The last test: the map stays on the page, and opens its panel.
     page.evaluate("urdfkit.page.select({ link: 'left' })")
     page.get_by_role("button", name="Drag the selected link").click()
-    page.get_by_role("button", name="Map of reach").click()
+    page.get_by_role("button", name="Reach map").click()
     until(lambda: page.evaluate("urdfkit.reach.map?.tip") == "left")
     assert page.locator("#panel-reach").is_visible()
     assert page.evaluate("urdfkit.reach.shown.count") > 10

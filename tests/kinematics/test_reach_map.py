@@ -1,4 +1,4 @@
-"""Maps of reach: solutions by Pinocchio, completeness by many restarts, exact shapes, orientations and threads."""
+"""Reach maps: solutions by Pinocchio, completeness by many restarts, exact shapes, orientations and threads."""
 
 from __future__ import annotations
 

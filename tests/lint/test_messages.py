@@ -516,7 +516,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         },
         [
             (
-                "launch/a.launch:2: warning: `arm` is in namespace `/robot`, but its spawner in launch/a.launch:3 has"
+                "launch/a.launch:2: warning: `arm` is in namespace `/robot`, but its spawner in launch/a.launch:3 is in"
                 " no namespace"
             )
         ],

@@ -27,7 +27,7 @@ OUTSIDE = (
 CARRIES = (
     "parent link `boom` of end effector `jaw_ee` does not carry group `jaw` write `hand`, or a link that is fixed to it"
 )
-FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot drives write `planar`"
+FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot has drive wheels write `planar`"
 NEVER = "the reason is `Never`, but a joint connects links `turret` and `boom` write `Adjacent`"
 URDF = "titan_description/urdf/titan.urdf.xacro"
 OUTSIDE_PARENT = (

@@ -422,7 +422,7 @@ def test_a_namespace_of_a_group_applies_to_the_parameters_and_to_the_spawner(ros
     (ros1 / "launch" / "arm.launch").write_text(grouped)
     assert found(ros1) == []
     (message,) = change(ros1, "launch/arm.launch", 'ns="arm"', 'ns="/arm"')
-    assert "in namespace `/cell/arm`, but its spawner in launch/arm.launch:4 has namespace `/arm`" in message
+    assert "in namespace `/cell/arm`, but its spawner in launch/arm.launch:4 is in namespace `/arm`" in message
 
 
 def test_a_controller_of_moveit_in_ros1_is_named_with_its_namespace(ros1):

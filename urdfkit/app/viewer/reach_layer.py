@@ -1,4 +1,4 @@
-"""Maps of reach for the page: as a message, and computed in a thread on request."""
+"""Reach maps for the page: as a message, and computed in a thread on request."""
 
 import base64
 from threading import Thread

@@ -17,7 +17,7 @@ _KINDS = {
     "number": ("a number", "numbers"),
     "integer": ("an integer", "integers"),
     "string": ("a string", "strings"),
-    "boolean": ("true or false", "truth values"),
+    "boolean": ("true or false", "Boolean values"),
 }
 
 

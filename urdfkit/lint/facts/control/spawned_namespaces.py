@@ -102,8 +102,8 @@ def plugins_in_other_namespace(model: Model) -> Iterator[tuple[Element, str]]:
             spawner = found[0]
             place = f"{spawner.source.file}:{spawner.source.position(spawner.tag.start).line}"
             where = f"namespace `{spawner.namespace}`" if spawner.namespace else "no namespace"
-            message = f"the controller manager is in namespace `{written.text.strip()}`, but the spawner in {place} has"
-            yield written, f"{message} {where}"
+            message = f"the controller manager is in namespace `{written.text.strip()}`, but the spawner"
+            yield written, f"{message} in {place} is in {where}"
 
 
 def _joined(*parts: str) -> str:

@@ -36,7 +36,7 @@ _CPP_TYPES = (
 _PYTHON_TYPES = {bool: "bool", int: "int", float: "double", str: "text"}
 _SHOWN = {
     **{"bool": "true or false", "int": "an integer", "double": "a number with a decimal point", "text": "a string"},
-    **{"list of bool": "a list of truth values", "list of int": "a list of integers"},
+    **{"list of bool": "a list of Boolean values", "list of int": "a list of integers"},
     **{"list of double": "a list of numbers with decimal points", "list of text": "a list of strings"},
 }
 

@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 
 class ControlJointRepeated(RobotRule):
-    """Two entries of ``<ros2_control>``, or two transmissions, are for one joint.
+    """Two entries of ``<ros2_control>``, or two transmissions, name the same joint.
 
     ## What it does
     Checks for a joint that one ``<ros2_control>`` names twice, and for two transmissions of one joint with the same
     hardware interface. If one moving joint of the robot has no entry, the message names it.
 
     ## Why is this bad?
-    The hardware component is not loaded, or the second entry is ignored. Usually the entry was copied, and the joint
-    that it is for has none.
+    The hardware component is not loaded, or the second entry is ignored. Usually the entry was copied without changing
+    the joint name, so another joint has no entry.
 
     ## Example
     ```diff

@@ -19,7 +19,7 @@ class XmlNotWellFormed(FaultRule):
     They are reported as warnings if only urdfdom reads the file, because urdfdom does not decode it.
 
     ## Why is this bad?
-    No reader of the description gets past the error. xacro reports the line, but not the name of an included file.
+    Every reader of the description stops at the error. xacro reports the line, but not the name of an included file.
 
     ## Example
     ```diff

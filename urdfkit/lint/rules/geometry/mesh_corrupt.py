@@ -45,7 +45,7 @@ class MeshCorrupt(RobotRule):
 
     - a folder, an empty file or a Git LFS pointer in place of a mesh
     - a format that differs from the suffix, truncated STL and glTF files, and invalid COLLADA files
-    - no triangles, or all triangles in one point
+    - no triangles, or all vertices at one point
     - more than 256 MiB or 5 million triangles
     - vertices that are not finite (STL, OBJ and COLLADA), and faces with missing vertices (OBJ files up to 2 MiB)
 

@@ -18,8 +18,8 @@ class AxesOnOneLine(RobotRule):
     three joints are on one line, the middle one is reported.
 
     ## Why is this bad?
-    Both joints make the same motion, so the robot has one degree of freedom less than joints, and the inverse
-    kinematics have no unique solution. Usually the ``<axis>`` was copied from the neighbouring joint.
+    Both joints make the same motion, so the robot has fewer degrees of freedom than joints, and the inverse kinematics
+    have no unique solution. Usually the ``<axis>`` was copied from the neighbouring joint.
 
     ## Example
     ```diff

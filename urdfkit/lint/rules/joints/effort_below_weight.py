@@ -19,8 +19,8 @@ class EffortBelowWeight(RobotRule):
     vertical with every joint at zero. Effort limits of zero and links without a mass are not reported here.
 
     ## Why is this bad?
-    The lift sinks in simulation, whatever its controller commands. Usually a digit of the effort limit or of a mass is
-    wrong.
+    The lift sinks in simulation, regardless of the commands of its controller. Usually a digit of the effort limit or
+    of a mass is wrong.
 
     ## Example
     ```diff

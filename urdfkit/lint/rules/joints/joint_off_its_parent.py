@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class JointOffItsParent(RobotRule):
-    """A joint is outside or inside of its parent link; all other joints are at the surface of theirs.
+    """A joint is outside or inside its parent link; all other joints are on the surface of their parent links.
 
     ## What it does
     Compares the places of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the boxes

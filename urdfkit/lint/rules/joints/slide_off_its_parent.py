@@ -28,8 +28,8 @@ class SlideOffItsParent(RobotRule):
     than its stroke may rise out of its parent link.
 
     ## Why is this bad?
-    The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x. Or the
-    limits are twice as large, because the stroke was written for each direction.
+    The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x.
+    Otherwise, the limits are often twice as large as intended, because each of them has the whole stroke.
 
     ## Example
     ```diff

@@ -30,8 +30,8 @@ class LaunchValueInvalid(RobotRule):
     ## What it does
     Checks the XML launch files of ROS for:
 
-    - conditions and other truth values without substitutions that are not booleans, and defaults of arguments that
-      serve as conditions
+    - conditions and other Boolean values without substitutions that are neither true nor false, and defaults of
+      arguments that serve as conditions
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes

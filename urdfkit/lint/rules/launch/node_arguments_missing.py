@@ -13,7 +13,7 @@ class NodeArgumentsMissing(RobotRule):
     ``map_server`` without ``yaml_filename``, and ``move_group`` without a planning pipeline.
 
     ## Why is this bad?
-    The node prints how it is used and exits, or waits without effect.
+    The node prints its usage message and exits, or waits without effect.
 
     ## Example
     ```diff title="robot.launch.py"

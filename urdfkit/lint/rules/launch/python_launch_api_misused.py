@@ -21,7 +21,7 @@ class PythonLaunchApiMisused(RobotRule):
     - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
     - lists without brackets, unknown values of ``output``, and ``items`` without a call
     - calls of the file's own functions that lack an argument
-    - the text of a launch argument that is taken as a truth value, or compared with one
+    - the string value of a launch argument that is used as a Boolean, or compared with a Boolean
     - launch files in another format than the class that loads them
     - event handlers of processes whose target is not a process
 

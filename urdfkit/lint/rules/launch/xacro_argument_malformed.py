@@ -10,7 +10,7 @@ class XacroArgumentMalformed(RobotRule):
     Checks the words ``name=value`` of xacro commands in launch files. Options, such as ``--xacro-ns``, are not checked.
 
     ## Why is this bad?
-    xacro takes the word for a second input file and stops: "expected exactly one input file as argument".
+    xacro treats the word as a second input file and stops: "expected exactly one input file as argument".
 
     ## Example
     ```diff

@@ -19,7 +19,7 @@ class SrdfGroupInconsistent(RobotRule):
     - the parent group of an end effector is not its own group
     - no other joint mimics a passive joint, and no controller moves it
     - a virtual joint ends at the root link, begins at a frame outside the robot, and is not fixed to ``odom`` or
-      ``map`` if the robot drives
+      ``map`` if the robot has drive wheels
 
     ## Why is this bad?
     The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.
@@ -109,7 +109,7 @@ class SrdfGroupInconsistent(RobotRule):
             help = "write a frame outside of the robot, such as `world`"
             yield self.at(model, joint, message, attribute="parent_frame", help=help, severity=severity)
         elif joint.get("type") == "fixed" and frame in ("odom", "map") and pairs_of_wheels(model):
-            message = f"virtual joint `{name}` is fixed to `{frame}`, but the robot drives"
+            message = f"virtual joint `{name}` is fixed to `{frame}`, but the robot has drive wheels"
             yield self.at(model, joint, message, attribute="type", help="write `planar`", severity=severity)
 
     def _carried(self, effector: Element, root: Element, model: Model, severity: Severity | None) -> Findings:

@@ -18,7 +18,7 @@ class JointWithoutController(RobotRule):
     controller must move two or more other joints of the same branch of the robot.
 
     ## Why is this bad?
-    The joint keeps its position, and plans of MoveIt that move it fail.
+    The joint keeps its position, and MoveIt plans that move it fail.
 
     ## Example
     ```diff

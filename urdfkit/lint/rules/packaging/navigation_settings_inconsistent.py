@@ -16,7 +16,7 @@ class NavigationSettingsInconsistent(RobotRule):
     - footprints whose sides cross or that do not contain the origin
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
     - a speed of the controller more than twice the limit of the velocity smoother
-    - a linear speed above that at which a wheel joint turns with its greatest velocity
+    - a linear speed that exceeds the velocity limit of a wheel joint
     - plugin names of different releases in one file, and plugins with the parameters of another plugin
     - a time step of the MPPI controller that is shorter than the period of its server
 

@@ -28,13 +28,13 @@ class ParameterValueInvalid(RobotRule):
     In the parameters of controllers, also checks for:
 
     - rates, wheel sizes, limits and tolerances that are negative, zero or not a number
-    - numbers and truth values in quotes, and names that are not in a list
+    - numbers and Boolean values in quotes, and names that are not in a list
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
     - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
     - minimum velocities above zero, and parameters that are indented to the level of controllers
 
     ## Why is this bad?
-    The controller does not start, or the value is ignored: of a key that occurs twice, only the last value applies.
+    The controller does not start, or the value is ignored. If a key occurs twice, only the last value applies.
 
     ## Example
     ```diff

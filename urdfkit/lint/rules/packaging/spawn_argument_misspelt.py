@@ -47,14 +47,16 @@ class SpawnArgumentMisspelt(RobotRule):
 
     ## What it does
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) and
-    ``spawner`` (controller_manager) for misspelt options, for options of another spawner, and for misspellings of
-    the topic or parameter ``robot_description`` and of joints, and for its name in place of a file. The spawners of
-    Gazebo Classic need a source of the description. Also reports a ``spawner`` that names another controller manager
-    than the launch files and the plugins of the robot start, a launch argument with which the description of a spawned
-    robot has no plugin with a controller manager although it has one with the opposite value, and a description in a
-    namespace if the launch file starts the robot and no file names a namespace.
+    ``spawner`` (controller_manager) for misspelt options, options of another spawner, and misspellings of joints and of
+    the topic or parameter ``robot_description``. Also checks for this name in place of a file. The spawners of Gazebo
+    Classic need a source of the description. Python launch files are parsed, not executed.
 
-    Python launch files are parsed, not executed.
+    The rule also reports
+
+    - a ``spawner`` that names a controller manager that neither a launch file nor a plugin of the robot starts
+    - a launch argument whose value removes the plugin with the controller manager from the description, although the
+      opposite value adds it
+    - a description in a namespace, if the launch file starts the robot and no file names a namespace
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world. ``create``

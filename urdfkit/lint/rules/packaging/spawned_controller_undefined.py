@@ -88,6 +88,6 @@ class SpawnedControllerUndefined(RobotRule):
         for one in misplaced_controllers(source, model):
             found, expected = (f"namespace `{name}`" if name else "no namespace" for name in (one.found, one.expected))
             spawner = f"{source.file}:{one.line}"
-            message = f"`{one.controller}` is in {found}, but its spawner in {spawner} has {expected}"
+            message = f"`{one.controller}` is in {found}, but its spawner in {spawner} is in {expected}"
             span = source.span(*one.loaded_at) if one.loaded_at is not None else span_of(one.source, one.key)
             yield self.at_span(span, message)

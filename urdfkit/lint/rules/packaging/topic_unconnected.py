@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class TopicUnconnected(RobotRule):
-    """A remapping of a common node connects it with no other node.
+    """A remapping leaves a common node without a connection to any other node.
 
     ## What it does
     Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,

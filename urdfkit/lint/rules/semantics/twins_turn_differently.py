@@ -24,7 +24,8 @@ class TwinsTurnDifferently(RobotRule):
     Limits that are neither, and symmetric limits, are not reported.
 
     ## Why is this bad?
-    One leg opens outwards where the other moves through it: usually the axis or the limits of one side lack a sign.
+    One leg moves outwards while its counterpart moves inwards. Usually the axis or the limits of one side have the
+    wrong sign.
 
     ## Example
     ```diff

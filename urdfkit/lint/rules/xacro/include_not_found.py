@@ -19,7 +19,7 @@ class IncludeNotFound(FaultRule):
     the default of an argument is reported as a note.
 
     ## Why is this bad?
-    xacro aborts with an error. Everything that the file defines is undefined.
+    xacro aborts with an error. The macros and properties that the file defines are missing.
 
     ## Example
     ```diff

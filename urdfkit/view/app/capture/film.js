@@ -52,7 +52,7 @@ export async function film(viewport, each, patience = PATIENCE) {
     for (const track of stream.getTracks()) track.stop();
   }
   if (fault) throw fault;
-  if (!parts.length) throw new Error(`no film was saved: the browser encoded no frame within ${patience / 1000} s; make the window smaller, or end other programs`);
+  if (!parts.length) throw new Error(`no video was saved: the browser encoded no frame within ${patience / 1000} s; make the window smaller, or end other programs`);
   return new Blob(parts, { type: kind.split(";")[0] });
 }
 
@@ -74,7 +74,7 @@ export async function turntable(viewport, seconds, progress = () => true) {
       stopped = progress(turned) === false;
       return turned < 1 && !stopped;
     });
-    if (stopped) throw new Error("the film of the turn was stopped");
+    if (stopped) throw new Error("the video of the turn was stopped");
     return blob;
   } finally {
     camera.position.copy(target).add(arm);

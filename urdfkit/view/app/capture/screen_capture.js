@@ -81,7 +81,7 @@ export function capture(page) {
       try {
         const blob = await make();
         keep(blob, `${stem(page)}.${blob.type.split("/")[1]}`);
-        page.toast(`Saved the film (${short(blob.size / 1e6, 1)} MB)`, "good");
+        page.toast(`Saved the video (${short(blob.size / 1e6, 1)} MB)`, "good");
       } catch (error) {
         page.toast(error.message, "error");
       }
@@ -100,7 +100,7 @@ export function capture(page) {
     if (page.cameras.way !== "orbit") document.getElementById("camera-orbit").click();
     return turntable(page.viewport, length(), progress);
   });
-  const free = filming("film", "Record a film", FILM, () => film(page.viewport, () => running));
+  const free = filming("film", "Record a video", FILM, () => film(page.viewport, () => running));
   const lapse = filming("timelapse", "Timelapse of the replay", LAPSE, () => timelapse(page, length(), progress));
   lapse.hidden = true;
   let replay = null;

@@ -245,7 +245,7 @@ export function ik(page) {
   const dragging = new Dragging(page);
   const hold = check("Keep the orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
   const free = check("Without collisions", { id: "ik-free", title: "only configurations in which no links collide", changed: (on) => ((dragging.free = on), dragging.choice.clear()) });
-  const mapped = h("button", { type: "button", id: "ik-reach", title: "where the link can be placed, by cell of a grid", onclick: () => map() }, "Map of reach");
+  const mapped = h("button", { type: "button", id: "ik-reach", title: "where the link can be placed, by cell of a grid", onclick: () => map() }, "Reach map");
   const map = () => page.connection.request("reach", { link: dragging.link }).then(
     ({ resolution }) => page.toast(`computing the reach map of ${dragging.link} in cells of ${resolution} m …`),
     ({ message }) => page.toast(message, "error"),
