@@ -136,3 +136,8 @@ def test_warnings_of_one_kind_are_one_finding_and_others_stay_apart(tmp_path: Pa
     path.write_text("\n".join(['<robot name="r"><link name="a"/>', *joints, "</robot>"]))
     found = lint_json(path, "--select", "J406")
     assert [len(one["related"]) for one in found] == [SMALLEST - 1] * 2
+
+
+def test_findings_in_files_that_were_not_read_stay_apart_by_their_messages(tmp_path: Path) -> None:
+    findings = run(find_entries([robot(tmp_path / "r.urdf", ["a.stl"], UNIT * SMALLEST)]), Options()).findings
+    assert [len(one.related) for one in grouped(findings, {})] == [0] * len(findings)

@@ -85,8 +85,10 @@ def _kind(finding: Finding, sources: Mapping[str, Source]) -> tuple[str, ...]:
 
 
 def _marked(finding: Finding, sources: Mapping[str, Source]) -> tuple[str, str]:
-    """Return the text of the place of a finding, and the start of its line before it with the text."""
-    source, span = sources[finding.file], finding.span
+    """Return the text of the place of a finding, and its line until the end of the place; empty if it was not read."""
+    source, span = sources.get(finding.file), finding.span
+    if source is None:
+        return "", ""
     start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
     return source.text[start:end], source.text[source.offset(span.line, 1) : end]
 
