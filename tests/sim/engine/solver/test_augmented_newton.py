@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,8 +13,10 @@ from tests.bench.contact_rich.models import humanoid, quadruped
 from tests.bench.contact_rich.scenes import FOLDED
 from tests.sim.engine.conftest import EngineOf
 from urdfkit import Simulator
-from urdfkit.sim.engine import Engine
-from urdfkit.sim.engine.simulation_memory import GUESSES
+from urdfkit.sim.engine import Engine, kernel_cache
+from urdfkit.sim.engine.interpreted_kernel import interpreted, views
+from urdfkit.sim.engine.simulation_memory import ADVANCE, GUESSES
+from urdfkit.sim.engine.solver.augmented_newton import descend_tree
 
 LINK = (
     '<link name="{0}"><inertial><origin xyz="{1}"/><mass value="{2}"/>'
@@ -78,6 +81,28 @@ def test_attempts_that_fail_at_rest_are_skipped_in_most_steps(engine_of: EngineO
     assert max(taken) > 5  # corrections are still attempted now and then
     assert np.abs(engine.v).max() < 1e-6
     assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(WEIGHT, rel=1e-5)
+
+
+def test_a_robot_at_rest_keeps_the_factors_of_its_matrix(engine_of: EngineOf, monkeypatch: pytest.MonkeyPatch) -> None:
+    engine = lying(engine_of)
+    advance: Any = interpreted(kernel_cache._advance(world=False))
+    functions = interpreted(descend_tree.python).__globals__  # type: ignore[attr-defined]
+    calls = {"factor_tree": 0, "solve_tree": 0}
+
+    def count(name: str) -> None:
+        function = functions[name]
+
+        def counted(*arguments: Any) -> Any:
+            calls[name] += 1
+            return function(*arguments)
+
+        monkeypatch.setitem(functions, name, counted)
+
+    for name in calls:
+        count(name)
+    advance(views(engine.arrays.floats, engine.arrays.integers), None, 10, ADVANCE)
+    assert calls["solve_tree"] >= 20
+    assert calls["factor_tree"] <= 0.75 * calls["solve_tree"]
 
 
 def test_a_collapsing_humanoid_takes_few_newton_steps(engine_of: EngineOf) -> None:

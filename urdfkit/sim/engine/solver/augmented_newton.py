@@ -21,7 +21,15 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import ATTEMPT, LAST_ATTEMPT, SKIPPED, TURNS
-from urdfkit.sim.engine.solver.penalty_rows import imbalance, joint_row_count, linearise, prepare, row_velocities
+from urdfkit.sim.engine.solver.penalty_rows import (
+    forget_matrix,
+    imbalance,
+    joint_row_count,
+    linearise,
+    matrix_changes,
+    prepare,
+    row_velocities,
+)
 from urdfkit.sim.engine.solver.tree_matrix import damped_inertia, factor_tree, multiply_inertia, solve_tree
 
 HARD, SOFT, SOFTEST, HARDEST = 1e3, 10.0, 3.0, 1e4
@@ -50,6 +58,9 @@ SOLVED = 1e-10
 """Velocity [m/s or rad/s] that the next round may still change where the law is met."""
 NEAR, GAIN = 1e-6, 0.7
 """The same where a round gains less than this factor over the one before, as where rows contradict each other."""
+QUICK = 0.01
+"""Factor that a round with a hard penalty gains over the one before, from which on the next has the same penalty: where
+rows do the same, it has the same factors."""
 RETURN = 0.1
 """Velocity [rad/s or m/s] of a joint beyond its limit from which on it is always made to return."""
 MEMORY = 1.0 - 1e-6
@@ -148,9 +159,12 @@ def descend_tree(
             return done
         if done == STEPS:
             break
-        linearise(w, tree, stride, joint_rows, contacts, hardness, inertia, bounded)
-        if not factor_tree(w, tree):
-            return -done - 1
+        # At rest rows do the same in every step of a round, so that the factors stay the same.
+        if matrix_changes(w, joint_rows, contacts, hardness, bounded):
+            linearise(w, tree, stride, joint_rows, contacts, hardness, inertia, bounded)
+            if not factor_tree(w, tree):
+                forget_matrix(w)
+                return -done - 1
         for d in range(first, beyond):
             step[d] = w.block_f[d]
         solve_tree(w, tree, step)
@@ -293,11 +307,16 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     attempt = first_try = first_attempt(w, tree, joint_rows, rows)
     begin(w, tree, stride, rows, joint_rows, contacts, attempt)
     hardness, balance = SOFT if attempt == MOVING else HARD, BALANCE
+    last_hardness = 0.0
     total = 0
     before = math.inf
     met = False
     while total < (TOTAL + MORE if attempt == BOUNDED else TOTAL) and not met:
         bounded = attempt == BOUNDED
+        # Between these attempts the penalty differs, or the matrix does not.
+        if hardness != last_hardness or (bounded and total == TOTAL):
+            forget_matrix(w)
+        last_hardness = hardness
         taken = descend_tree(w, tree, stride, rows, joint_rows, contacts, hardness, balance, inertia, bounded)
         total += max(1, abs(taken))
         off = take_over(w, rows, hardness)
@@ -315,7 +334,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
             off = math.inf
         elif taken < 0:
             hardness = max(SOFTEST, SOFTER * hardness)
-        elif attempt != RESTING:
+        elif attempt >= MOVING or (attempt != RESTING and off > QUICK * before):
             hardness = min(HARDEST, HARDER * hardness)
         before = off
     remember_attempt(w, tree, first_try, attempt)

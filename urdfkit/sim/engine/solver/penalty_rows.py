@@ -28,6 +28,8 @@ from urdfkit.sim.engine.solver.tree_matrix import (
 
 LEFT = 1e-7
 """Velocity [m/s] up to which penetrations and gaps stay where a load is: 0.1 nm in 1 ms; they contradict each other."""
+UNKNOWN, PRESSES, STICKS, SLIPS = -1, 1, 2, 4
+"""States of a contact, as a sum: its normal presses, and friction sticks or slips. Joint rows stick or do nothing."""
 
 
 @inlined
@@ -158,6 +160,45 @@ def imbalance(
     return total
 
 
+@inlined
+def forget_matrix(w: KernelWorld) -> None:
+    """Let `matrix_changes` find that the matrix changes."""
+    w.state[0] = UNKNOWN
+
+
+@inlined
+def set_state(w: KernelWorld, k: int, state: int) -> bool:
+    """Write the state of a row or contact; return whether it differs from the one before."""
+    changed = w.state[k] != state
+    w.state[k] = state
+    return bool(changed)
+
+
+@compiled
+def matrix_changes(w: KernelWorld, joint_rows: int, contacts: int, hardness: float, bounded: bool) -> bool:
+    """Write what all rows do at the present velocities; return whether the matrix of `linearise` differs from the last.
+
+    At the same penalty, it depends on this only as long as nothing slides.
+    """
+    changed = False
+    for k in range(joint_rows):
+        z = w.x[k] - hardness * w.row_stiffness[k] * w.y[k]
+        changed = set_state(w, k, STICKS if w.low[k] < z < w.high[k] else 0) or changed
+    for j in range(contacts):
+        k = w.contact_row[w.index[j]]
+        penalty = hardness * w.row_stiffness[k]
+        z = w.x[k] - penalty * w.y[k]
+        state = PRESSES if z > 0.0 else 0
+        most = w.mu[k] * (w.x[k] if bounded else z)
+        if most > 0.0:
+            a, b = w.x[k + 1] - penalty * w.y[k + 1], w.x[k + 2] - penalty * w.y[k + 2]
+            slides = not math.sqrt(a * a + b * b) <= most
+            state += SLIPS if slides else STICKS
+            changed = changed or slides
+        changed = set_state(w, k, state) or changed
+    return changed
+
+
 @compiled
 def linearise(
     w: KernelWorld,
@@ -169,34 +210,32 @@ def linearise(
     inertia: Any,
     bounded: bool,
 ) -> None:
-    """Write the derivative of M·v - Jᵀ·P into K; see `imbalance`."""
+    """Write the derivative of M·v - Jᵀ·P into K, of what rows do after `matrix_changes`; see `imbalance`."""
     first = w.tree_dof[tree]
     for k in range(36 * w.tree_body[tree], 36 * w.tree_body[tree + 1]):
         w.push[k] = 0.0
     for j in range(contacts):
         contact = w.index[j]
         k = w.contact_row[contact]
-        penalty = hardness * w.row_stiffness[k]
-        z = w.x[k] - penalty * w.y[k]
-        most = w.mu[k] * (w.x[k] if bounded else z)
-        if z <= 0.0 and not (bounded and most > 0.0):
+        state = w.state[k]
+        if state == 0:
             continue
+        penalty = hardness * w.row_stiffness[k]
         body, normal = w.contact_body[contact], direction(w, contact, 2)
         stiff = (scale(penalty, normal[0]), scale(penalty, normal[1]))
-        if z > 0.0 and (bounded or w.mu[k] == 0.0):
+        if state & PRESSES != 0 and (bounded or state & SLIPS == 0):
             add_product(w, body, stiff, normal)
-        if most <= 0.0:
+        if state == PRESSES:
             continue
         first_way, second_way = direction(w, contact, 0), direction(w, contact, 1)
-        a, b = w.x[k + 1] - penalty * w.y[k + 1], w.x[k + 2] - penalty * w.y[k + 2]
-        size = math.sqrt(a * a + b * b)
-        if size <= most:
-            if not bounded:
-                add_product(w, body, stiff, normal)
+        if state & SLIPS == 0:
             add_product(w, body, (scale(penalty, first_way[0]), scale(penalty, first_way[1])), first_way)
             add_product(w, body, (scale(penalty, second_way[0]), scale(penalty, second_way[1])), second_way)
             continue
         # Friction grows with the normal impulse, and turns with the slip.
+        a, b = w.x[k + 1] - penalty * w.y[k + 1], w.x[k + 2] - penalty * w.y[k + 2]
+        size = math.sqrt(a * a + b * b)
+        most = w.mu[k] * (w.x[k] if bounded else w.x[k] - penalty * w.y[k])
         a, b = a / size, b / size
         along = (
             add(scale(a, first_way[0]), scale(b, second_way[0])),
@@ -213,9 +252,7 @@ def linearise(
         add_product(w, body, (scale(c, across[0]), scale(c, across[1])), across)
     assemble_tree(w, tree, inertia)
     for k in range(joint_rows):
-        penalty = hardness * w.row_stiffness[k]
-        z = w.x[k] - penalty * w.y[k]
-        if w.low[k] < z < w.high[k]:
+        if w.state[k] == STICKS:
             d = dof_of(w, k)
             entry = w.Y[k * stride + d - first]
-            w.K_rows[w.dof_branch[d] + w.dof_depth[d]] += penalty * entry * entry
+            w.K_rows[w.dof_branch[d] + w.dof_depth[d]] += hardness * w.row_stiffness[k] * entry * entry
