@@ -9,6 +9,7 @@ import pinocchio as pin
 import pytest
 
 from urdfkit.sim.engine import Surface
+from urdfkit.sim.engine.bodies import Body
 
 DT = [0.001, 0.005]
 
@@ -50,6 +51,23 @@ def test_a_free_body_spinning_about_its_middle_axis_keeps_energy_and_momentum(en
     assert after == pytest.approx(before, abs=most * np.linalg.norm(before))
     assert now == pytest.approx(velocity, abs=1e-10)
     assert engine.q[:3] == pytest.approx(20.0 * velocity, abs=1e-8)
+
+
+def test_a_flying_body_moves_as_the_equations_of_trees_have_it(engine_of):
+    at, tensor = (0.0, 0.0, 9.0, 0.1, -0.3, 0.2, 0.9273618495495703), np.diag([0.03, 0.05, 0.07]) + 0.004
+    flying, reference = (
+        Body(name, at, mass=2.0, centre=(0.1, -0.05, 0.02), inertia=tensor, weightless=weightless)
+        # What has a part without gravity, however small, takes the general way.
+        for name, weightless in (("flying", 0.0), ("reference", 1e-300))
+    )
+    engine = engine_of("plate", floating=False, bodies=[flying, reference])
+    for body in engine.bodies.values():
+        body.place(at, (0.3, -0.2, 4.0, 6.0, -9.0, 5.0))
+    engine.step(700)
+    found, expected = engine.bodies["flying"], engine.bodies["reference"]
+    assert np.linalg.norm(np.subtract(found.pose[:3], at[:3])) > 0.5
+    assert found.pose == pytest.approx(expected.pose, abs=1e-12)
+    assert found.twist == pytest.approx(expected.twist, abs=1e-11)
 
 
 @pytest.mark.parametrize("dt", DT)

@@ -88,6 +88,15 @@ def tensor_times(T: Any, a: Vector) -> Vector:
 
 
 @inlined
+def tensor_inverse(T: Any) -> Any:
+    """Return the inverse of a symmetric tensor."""
+    x, y, z = T[3] * T[5] - T[4] * T[4], T[2] * T[4] - T[1] * T[5], T[1] * T[4] - T[2] * T[3]
+    c = 1.0 / (T[0] * x + T[1] * y + T[2] * z)
+    middle = c * (T[0] * T[5] - T[2] * T[2])
+    return (c * x, c * y, c * z, middle, c * (T[1] * T[2] - T[0] * T[4]), c * (T[0] * T[3] - T[1] * T[1]))
+
+
+@inlined
 def tensor_turned(R: Any, T: Any) -> Any:
     """Return R·T·Rᵀ of a symmetric tensor."""
     x = tensor_times(T, (R[0], R[1], R[2]))

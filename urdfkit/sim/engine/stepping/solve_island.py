@@ -30,7 +30,8 @@ from urdfkit.sim.engine.simulation_memory import (
     WIDTH,
 )
 from urdfkit.sim.engine.sleep.rolling_resistance import resist_rolling
-from urdfkit.sim.engine.solver.active_set_newton import fastest_row, guess, solve
+from urdfkit.sim.engine.sleep.sleep_criteria import is_free_body
+from urdfkit.sim.engine.solver.active_set_newton import MOST_GUESSES, fastest_row, guess, iterate
 from urdfkit.sim.engine.solver.augmented_newton import (
     ATTEMPTS,
     FEW_DOFS,
@@ -131,8 +132,17 @@ def solve_island(w: KernelWorld, root: int) -> int:
             counts[ITERATED] += 1
         elif rows > 0 and not held and not done:
             build_delassus(w, rows, single, width, False)
-            guesses = solve(w, rows)
-            apply_impulses(w, rows, single, width, False)
+            largest = fastest_row(w, rows)
+            guesses = guess(w, rows, largest, MOST_GUESSES)
+            if guesses == 0 and is_free_body(w, single):
+                for k in range(rows):
+                    w.before[k] = w.last[w.slot[k]]
+                guesses = hold(w, root, rows)
+                held = guesses != 0
+            if guesses == 0:
+                guesses = iterate(w, rows, largest)
+            if not held:
+                apply_impulses(w, rows, single, width, False)
             counts[GUESSES] = guesses
             counts[ITERATED] += guesses <= 0
         again = False
