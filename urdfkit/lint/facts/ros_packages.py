@@ -80,6 +80,7 @@ _METAPACKAGES = {
     "navigation": "amcl base_local_planner carrot_planner clear_costmap_recovery costmap_2d dwa_local_planner"
     " fake_localization global_planner map_server move_base move_base_msgs move_slow_and_clear nav_core navfn"
     " robot_pose_ekf rotate_recovery voxel_grid",
+    **dict.fromkeys(("nav2_controller", "nav2_planner"), "nav2_costmap_2d"),
     "navigation2": "nav2_[!b]* nav2_b[!r]*",
     "ros2_control": "controller_interface controller_manager* hardware_interface joint_limits ros2controlcli"
     " ros2_control_test_assets transmission_interface",

@@ -55,6 +55,7 @@ _TRUTHS = frozenset(
         *(f"has_{name}_limits" for name in ("velocity", "acceleration", "jerk", "position", "deceleration")),
     )
 )
+_QUOTED = {"true": "true", "yes": "true", "on": "true", "false": "false", "no": "false", "off": "false"}
 _LISTS = frozenset(("joints", "command_interfaces", "state_interfaces", "left_wheel_names", "right_wheel_names"))
 
 _TRAJECTORIES = {
@@ -79,7 +80,13 @@ _REQUIRED = {
 }
 """Controller type → parameters without a default."""
 
+_INTERPOLATIONS = ("splines", "none")
+"""Values of ``interpolation_method`` (joint_trajectory_controller, interpolation_methods.hpp)."""
+
 _INTERFACES = frozenset(("command_interfaces", "state_interfaces"))
+_FLOORS = {"min_velocity": "the robot cannot stop", "min_acceleration": "the robot cannot slow down"}
+"""Lower limit → the effect of a positive value (diff_drive_controller, speed_limiter.cpp)."""
+
 _WHEELS = (("left_wheel_names", "right_wheel_names"), ("left_wheel", "right_wheel"))
 Defects = Iterator[tuple[Node, str]]
 
@@ -89,8 +96,9 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
     values = {key.text: value for key, value in node.entries if "$" not in value.text}
     for name, value in values.items():
         yield from _of_number(name, value, is_ros2)
-        if name in _TRUTHS and value.kind == "text" and value.text.lower() in ("true", "false") and not value.is_plain:
-            yield value, f'`{name}` is "{value.text}", a quoted string; write {value.text.lower()}'
+        truth = _QUOTED.get(value.text.lower()) if name in _TRUTHS and value.kind == "text" else None
+        if truth is not None and not value.is_plain:
+            yield value, f'`{name}` is "{value.text}", a quoted string; write {truth}'
         elif name in _TRUTHS and value.kind == "text" and value.is_plain and value.text in ("0", "1"):
             yield value, f"`{name}` is {value.text}; write {'true' if value.text == '1' else 'false'}"
         if name in _LISTS and value.kind == "text" and value.text:
@@ -113,9 +121,9 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
             continue
         above = f"{prefix}.max_{last[4:]}" if prefix else f"max_{last[4:]}"
         lower, upper = number_of(value), number_of(values.get(above))
-        is_velocity = last == "min_velocity" and (f"{prefix}." if prefix else "") + "has_velocity_limits" in values
-        if is_velocity and lower is not None and upper is not None and 0.0 < lower <= upper:
-            yield value, f"`{name}` is {lower:g}, so the robot cannot stop; write a value of zero or below"
+        has_limits = (f"{prefix}." if prefix else "") + f"has_{last[4:]}_limits" in values
+        if has_limits and last in _FLOORS and lower is not None and upper is not None and 0.0 < lower <= upper:
+            yield value, f"`{name}` is {lower:g}, so {_FLOORS[last]}; write a value of zero or below"
         if lower is not None and upper is not None and lower > upper and upper >= 0.0:
             yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
     if is_ros2:
@@ -124,8 +132,18 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         covariances = values.get(name)
         if covariances is not None and covariances.kind == "list" and len(covariances.items) != 6:
             yield covariances, f"`{name}` has {len(covariances.items)} values; it requires 6"
+    method = values.get("interpolation_method")
+    if method is not None and method.text and method.text not in _INTERPOLATIONS and "joints" in values:
+        yield method, f"unknown `interpolation_method` `{method.text}`; write `splines` or `none`"
     for left, right in _WHEELS:
         names = values[left].texts() if left in values and right in values else []
+        counts = [len(values[side].items) for side in (left, right)] if names else [0, 0]
+        per_side, each_side = values.get("wheels_per_side"), number_of(values.get("wheels_per_side"))
+        if counts[0] != counts[1] and min(counts) > 0:
+            few, many = (left, right) if counts[0] < counts[1] else (right, left)
+            yield values[few], f"`{few}` has {min(counts)} wheels, but `{many}` has {max(counts)}"
+        elif per_side is not None and each_side is not None and counts[0] and each_side != counts[0]:
+            yield per_side, f"`wheels_per_side` is {each_side:g}, but `{left}` has {counts[0]} wheels"
         opposite = [values[right], *values[right].items] if names else []
         for item in opposite:
             if item.text and item.text in names:

@@ -11,6 +11,7 @@ from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.launched_nodes import Started, launches, started
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, Wanted, declared, wanted
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
+from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
 from urdfkit.lint.model.model import Model
 
 SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
@@ -94,6 +95,40 @@ def shared_interfaces(model: Model) -> Iterator[tuple[Source, Wanted, str]]:
                         yield source, Wanted(each.joint, each.interface, True, _joint(one, each)), other
             if len(listed) > 1 and PARAMETERS not in source.text:
                 yield from ((source, *shared) for shared in _shared_in_ros1(source, listed))
+
+
+def left_out(model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the last controller that a launch file spawns, and the only controller of its file that none spawns.
+
+    The spawned controllers move none of its joints, no launch file names it, and MoveIt does not use it, which
+    moveit-controller-contradiction compares.
+    """
+    spawners = [(file, node) for file in launches(model) for node in started(file) if node.program in SPAWNERS]
+    if not spawners or not all(_is_literal(node) for _, node in spawners):
+        return
+    words = [(file, word) for file, node in spawners for word in spawned(node)]
+    of_moveit = (entry for source, _ in moveit_yamls(model) for entry in entries(source))
+    used = {entry.name.text for entry in of_moveit if entry.kind == "controller"}
+    for source in yamls(model):
+        is_ros2 = PARAMETERS in source.text
+        groups = [(one.name, one.settings) for one in declared(source)] if is_ros2 else []
+        groups += [(one.name, one.group) for one in settings(source) if one.kind and not is_ros2]
+        every = {name: _moved(group, model) for name, group in groups if group is not None}
+        running = [(file, word) for file, word in words if word.name in every]
+        missing = {name for name in every if every[name]} - {word.name for _, word in words}
+        if len(missing) != 1 or not running or missing & used:
+            continue
+        name = missing.pop()
+        moved = set().union(*(every[word.name] for _, word in running))
+        named = rf"(?<![\w-]){re.escape(name)}[\"'\s]*(?:,|\]|\)|$|--)"
+        if not every[name] & moved and not any(re.search(named, file.text, re.MULTILINE) for file in launches(model)):
+            yield *running[-1], name
+
+
+def _moved(group: Node, model: Model) -> set[str]:
+    """Return the joints of the robot that the parameters of a controller list."""
+    lists = [value for key, value in group.entries if "interface" not in key.text and key.text != "type"]
+    return {name for value in lists for name in value.texts() if name in model.robot.joint_by_name}
 
 
 _OF_ROS1 = r"(effort|position|velocity)_controllers/\w+|(diff_drive)_controller/DiffDriveController"

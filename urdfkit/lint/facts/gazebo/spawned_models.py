@@ -8,6 +8,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.launched_nodes import Started
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
+from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.model.model import Model
 
 SPAWNERS = {
@@ -39,6 +40,8 @@ def spawned_in_the_ground(node: Started, model: Model) -> Iterator[tuple[int, st
 
 def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
     """Yield offset, text and message of a description that no launch file of ROS 1 sets as a parameter."""
+    if node.program == "create":
+        yield from _own_parameters(node, model)
     if (node.package, node.program) != ("gazebo_ros", "spawn_model"):
         return
     names = {tag.attributes["name"].value for _, tag in tags(ros1_files(model), "param") if "name" in tag.attributes}
@@ -50,6 +53,21 @@ def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str
                 near = next(iter(own)) if len(own) == 1 else None
                 message = f"no launch file of these packages sets the parameter `{word.name}`"
                 yield word.start, word.name, message + Suggestion(near, word.name)
+
+
+def _own_parameters(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
+    """Yield a parameter with the description that ``create`` reads from itself and no launch file gives it.
+
+    Source: ros_gz_sim (create.cpp), which declares the parameter of its own node.
+    """
+    spawners = [each for each in launched_nodes(model) if each.program == "create"]
+    is_open = any(each.inline is None or each.files for each in spawners)
+    parameters = {name for each in spawners for name in each.inline or ()}
+    for option, word in zip(node.arguments, node.arguments[1:], strict=False):
+        is_name = option is not None and word is not None and option.name == "-param" and "$" not in word.name
+        if word is not None and is_name and not is_open and word.name not in parameters:
+            message = f"`create` reads its own parameter `{word.name}`, which it does not have"
+            yield word.start, word.name, f"{message}; write `-topic robot_description`"
 
 
 def names_as_files(node: Started) -> Iterator[tuple[int, str, str]]:

@@ -18,7 +18,7 @@ from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
 
 _FIND = r"\$\(find(?:-pkg-share)?\s+([^\s()]+)\s*\)"
-_USED = r"\$\((?:arg|var)\s+([\w.-]+)\s*\)|\$\(eval\b[^()]*\barg\(\s*['\"]([\w.-]+)['\"]\s*\)"
+_USED = r"\$\((?:arg|var)\s+([\w.-]+)(?:\s+[\w.-]+)?\s*\)|\$\(eval\b[^()]*\barg\(\s*['\"]([\w.-]+)['\"]\s*\)"
 _XACRO = r"(?<![\w.])xacro(?:\.py)?['\"]?(?![\w/])(.*)"
 _ARGUMENT = r"\s*['\"]?\$\((?:arg|var)\s+([\w.-]+)\s*\)['\"]?\s*"
 _PASSED = r"([\w.-]+):="

@@ -47,15 +47,19 @@ delay; rosbag: record play rosbag; image_transport: republish list_transports; i
 stereo_view video_recorder extract_images disparity_view; usb_cam: usb_cam_node usb_cam_node_exe; v4l2_camera:
 v4l2_camera_node; depthimage_to_laserscan: depthimage_to_laserscan depthimage_to_laserscan_node;
 pointcloud_to_laserscan: pointcloud_to_laserscan_node laserscan_to_pointcloud_node;
+imu_filter_madgwick: imu_filter_node imu_filter_madgwick_node;
+laser_filters: scan_to_cloud_filter_chain scan_to_scan_filter_chain generic_laser_filter_node;
 """
 """Package: executables; of Noetic, Humble, Jazzy and Rolling (their CMakeLists.txt and setup.py)."""
 
 _ONLY_IN = {
     1: """controller_manager: controller_manager controller_group; xacro:
     xacro.py; gazebo_ros: gazebo spawn_model debug perf gdbrun urdf2gazebo libcommon.sh; teleop_twist_keyboard:
-    teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node""",
+    teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node; imu_filter_madgwick:
+    imu_filter_node""",
     2: """controller_manager: ros2_control_node hardware_spawner; gazebo_ros: spawn_entity.py; robot_localization:
-    ekf_node ukf_node robot_localization_listener_node; teleop_twist_keyboard: teleop_twist_keyboard""",
+    ekf_node ukf_node robot_localization_listener_node; teleop_twist_keyboard: teleop_twist_keyboard;
+    imu_filter_madgwick: imu_filter_madgwick_node""",
 }
 """Version of ROS → executables that no release of the other version has."""
 
@@ -87,6 +91,7 @@ _COMPLETE = frozenset(
             "nav2_velocity_smoother",
             "nav2_waypoint_follower",
         ),
+        *("imu_filter_madgwick", "robot_localization", "ros_gz_bridge", "ros_ign_bridge", "slam_toolbox", "twist_mux"),
         *("rviz", "rviz2", "ros_gz_image", "ros_ign_image", "teleop_twist_joy", "teleop_twist_keyboard"),
     )
 )

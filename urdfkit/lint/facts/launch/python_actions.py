@@ -88,9 +88,9 @@ class _PythonActions:
             file = first or keywords.get("launch_description_source")
             passed, is_all = self._pairs(keywords.get("launch_arguments"))
             self._add(found.includes, self._file(file), node, passed, is_all, is_conditional=node in self._conditional)
-        elif kind in ("process_file", "process"):
+        elif kind in ("process_file", "process") or (kind == "robot_description" and "mappings" in keywords):
             passed, is_all = self._pairs(keywords.get("mappings"))
-            self._add(found.xacro, self._path(first), node, passed, is_all)
+            self._add(found.xacro, self._path(first or keywords.get("file_path")), node, passed, is_all)
         elif kind == "Command" and first is not None:
             self._command(first, node)
         elif kind in _NODES:

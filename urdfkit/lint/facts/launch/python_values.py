@@ -1,8 +1,10 @@
 """Values of the wrong kind in Python launch files: handlers, conditions, remappings, parameters and actions.
 
 Sources: ros2/launch (event_handlers/on_action_event_base.py, event_handlers/on_process_exit.py,
-conditions/evaluate_condition_expression_impl.py, actions/timer_action.py, launch_description.py), ros2/launch_ros
-(actions/node.py, utilities/normalize_parameters.py, utilities/normalize_remap_rule.py), Humble to Rolling.
+conditions/evaluate_condition_expression_impl.py, actions/timer_action.py, actions/declare_launch_argument.py,
+launch_description.py, substitutions/command.py, launch_configuration.py and path_join_substitution.py), ros2/launch_ros
+(actions/node.py, utilities/normalize_parameters.py, utilities/normalize_remap_rule.py, parameter_descriptions.py),
+Humble to Rolling.
 """
 
 from __future__ import annotations
@@ -34,6 +36,13 @@ _ACTIONS = (
     *("RegisterEventHandler", "SetEnvironmentVariable", "SetParameter", "TimerAction", "ComposableNodeContainer"),
 )
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer", "ComposableNode")
+_ONLY_FIRST = {
+    "Command": "`Command` has one argument; write its words in one list",
+    "DeclareLaunchArgument": "write `default_value=` before this argument",
+    "LaunchConfiguration": "write `default=` before this argument",
+    "PathJoinSubstitution": "`PathJoinSubstitution` has one argument; write the parts in one list",
+}
+"""Class with one argument without a name → what to do with a second one."""
 
 
 def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
@@ -46,6 +55,8 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             found = _compared(node, reader)
         elif isinstance(node, ast.Call) and name_of(node.func) == "bool" and len(node.args) == 1:
             found = _truth(node, node.args[0], reader)
+        elif isinstance(node, ast.Call) and name_of(node.func) == "join":
+            found = _absolute_parts(node.args, reader)
         else:
             continue
         yield from ((place(source, at), message) for at, message in found)
@@ -71,6 +82,12 @@ def _items(node: ast.expr, reader: LaunchReader) -> list[ast.expr]:
 
 def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+    if kind in _ONLY_FIRST and len(call.args) > 1:
+        yield call.args[1], _ONLY_FIRST[kind]
+    elif kind == "PathJoinSubstitution":
+        yield from _absolute_parts(_items(call.args[0], reader) if call.args else [], reader)
+    elif kind == "ParameterValue":
+        yield from _of_command(call, words.get("value_type"), reader)
     if kind in _OF_PROCESSES and (target := words.get("target_action")) is not None:
         called = _called(target, reader)
         if called in _NO_PROCESSES:
@@ -94,6 +111,27 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
             yield call.args[1], "`LaunchDescription` has one list of actions; join the lists with `+`"
         elif call.args and _called(call.args[0], reader) in _ACTIONS:
             yield call.args[0], "the argument of `LaunchDescription` is not a list; write it in brackets"
+
+
+def _absolute_parts(parts: list[ast.expr], reader: LaunchReader) -> Defects:
+    """Yield the parts of a joined path that start with a slash: the path starts again there."""
+    is_of_package = bool(parts) and reader.path(parts[0]) is not None
+    for part in parts[1:] if is_of_package else ():
+        text = reader.text(part) or ""
+        if isinstance(part, ast.Constant) and text.startswith("/"):
+            yield part, f"`{text}` starts with a slash, so the parts before it are dropped; write `{text.strip('/')}`"
+
+
+def _of_command(call: ast.Call, kind: ast.expr | None, reader: LaunchReader) -> Defects:
+    """Yield a ``ParameterValue`` that reads the output of a command as something else than a text."""
+    value = call.args[0] if call.args else next((each.value for each in call.keywords if each.arg == "value"), None)
+    kind = kind or (call.args[1] if len(call.args) > 1 else None)
+    if value is None or _called(value, reader) != "Command":
+        return
+    if kind is None:
+        yield call, "without `value_type`, the launch reads the output of the command as YAML; add `value_type=str`"
+    elif isinstance(kind, ast.Name) and kind.id in ("bool", "int", "float", "list", "dict"):
+        yield kind, f"the output of the command is a text, not a value of type `{kind.id}`; write `str`"
 
 
 def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, reader: LaunchReader) -> Defects:
@@ -121,6 +159,16 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
             yield item, "an item of `parameters` is a value without a name; write {name: value}"
         elif _called(item, reader) == "to_moveit_configs":
             yield item, "an item of `parameters` is a MoveItConfigs; write `.to_dict()` after it"
+        for key, each in zip(value.keys, value.values, strict=True) if isinstance(value, ast.Dict) else ():
+            if (
+                key is not None
+                and reader.text(key) == "robot_description"
+                and (path := _description_path(each, reader))
+            ):
+                yield (
+                    _value(each, reader),
+                    f"`robot_description` is the path of `{path}` and not its text; run xacro with `Command`",
+                )
     for item in _items(words["arguments"], reader) if "arguments" in words else ():
         number = item.operand if isinstance(item, ast.UnaryOp) else item
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
@@ -129,6 +177,16 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
     pairs = _items(remappings, reader) if remappings is not None else []
     if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
         yield remappings, 'an item of `remappings` is a string; write pairs, [("from", "to")]'
+
+
+def _description_path(node: ast.expr, reader: LaunchReader) -> str:
+    """Return the name of the file whose path an expression is; empty if it is no path of a description."""
+    value = _value(node, reader)
+    if isinstance(value, ast.Call) and name_of(value.func) == "ParameterValue" and value.args:
+        value = value.args[0]
+    found = reader.path(value)
+    name = found[1].rpartition("/")[2] if found is not None else ""
+    return name if name.endswith((".urdf", ".xacro")) else ""
 
 
 def _never_equal(node: ast.Compare, reader: LaunchReader) -> Defects:

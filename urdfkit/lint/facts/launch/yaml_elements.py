@@ -93,7 +93,12 @@ def _action(key: Node, name: str, value: Node) -> Defects:
 
 
 def _children(key: Node, value: Node) -> Defects:
-    """Yield the defects of the parameters, remappings, arguments and other parts of an action."""
+    """Yield the defects of the parameters, remappings, arguments and other parts of an action.
+
+    Source: launch_yaml (entity.py), "expected to be a list of dictionaries".
+    """
+    if value.kind == "group" and value.entries:
+        yield value.entries[0][0], f"`{key.text}` is not a list; write `- ` before `{value.entries[0][0].text}`"
     for item in value.items if value.kind == "list" else (value,):
         names = {each.text for each, _ in item.entries}
         if key.text == "param" and len(names) == 1 and names.isdisjoint({"name", "from"}):

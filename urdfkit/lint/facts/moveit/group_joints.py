@@ -6,7 +6,7 @@ A projection of MoveIt's OMPL planners reads joints of its group; this was not c
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.element import Element
@@ -16,8 +16,17 @@ from urdfkit.lint.facts.moveit.settings import unwrapped
 from urdfkit.lint.facts.moveit.srdf import groups, joints_of
 
 
-def projection_defects(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:
-    """Yield the projections of groups with joints that the groups do not contain."""
+def projection_defects(
+    source: Source, root: Element, robot: Robot, texts: Collection[str]
+) -> Iterator[tuple[Node, str]]:
+    """Yield the projections of groups with joints that the groups do not contain, or that no other file names.
+
+    Args:
+        source: a file with planners.
+        root: the SRDF.
+        robot: the robot.
+        texts: the texts of the other files.
+    """
     defined = groups(root)
     for group, settings in (entry for each in documents(source) for top in unwrapped(each) for entry in top.entries):
         node = settings.find("projection_evaluator") if group.text in defined else None
@@ -25,6 +34,10 @@ def projection_defects(source: Source, root: Element, robot: Robot) -> Iterator[
         members = joints_of(group.text, root, robot) if written is not None else None
         names = [name.strip() for name in written[1].split(",")] if written is not None and members else []
         foreign = [name for name in names if name in robot.joint_by_name and name not in (members or ())]
+        unknown = [name for name in names if name not in robot.joint_by_name] if not foreign else []
+        unknown = [name for name in unknown if not any(re.search(rf"\b{re.escape(name)}\b", text) for text in texts)]
+        if node is not None and unknown and len(unknown) < len(names):
+            yield node, f"joint `{unknown[0]}` of `projection_evaluator` does not exist in the robot"
         if node is not None and foreign:
             yield node, f"joint `{foreign[0]}` of `projection_evaluator` is not in group `{group.text}`"
 

@@ -137,6 +137,13 @@ def _sensors(top: Node) -> Defects:
         plugin = node.find("sensor_plugin")
         topic = _SENSOR_TOPICS.get(plugin.text.rpartition("/")[2]) if plugin is not None else None
         others = {key.text for key, _ in node.entries} & set(_SENSOR_TOPICS.values())
+        sampled, shown = node.find("point_subsample"), node.find("filtered_cloud_topic")
+        count, source = number_of(sampled), node.find("point_cloud_topic")
+        if plugin is not None and sampled is not None and count is not None and count < 1.0:
+            yield sampled, f"`point_subsample` is {count:g}; it must be at least 1"
+        is_same = shown is not None and source is not None and shown.text.strip("/") == source.text.strip("/")
+        if plugin is not None and shown is not None and shown.text and is_same:
+            yield shown, "`filtered_cloud_topic` is the topic of the sensor, which then gets the filtered cloud too"
         if plugin is not None and topic is not None and others and topic not in others:
             yield plugin, f"`{plugin.text}` reads `{topic}`, not `{others.pop()}`"
 

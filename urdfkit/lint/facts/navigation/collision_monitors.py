@@ -96,14 +96,33 @@ def mux_defects(source: Source) -> Defects:
                     )
                     yield value, f"{message}; only one of them passes"
                 by_priority.setdefault(number, name)
+            yield from _unending(inputs)
             for name, entry in _inputs(group.find("locks")):
                 value = entry.find("priority")
                 number = number_of(value)
-                if value is None or number is None or not by_priority or not re.search(r"stop|emergency", name, re.I):
+                if value is None or number is None or not by_priority:
+                    continue
+                if 0 < number <= min(by_priority):
+                    yield value, f"lock `{name}` has the priority {number:g}, and no input has a lower one to stop"
+                    continue
+                if not re.search(r"stop|emergency", name, re.I):
                     continue
                 above = [each for priority, each in by_priority.items() if priority > number]
                 if above and number > 0:
                     yield value, f"lock `{name}` has the priority {number:g} and does not stop input `{above[-1]}`"
+
+
+def _unending(inputs: list[tuple[str, Node]]) -> Defects:
+    """Yield the timeouts of zero, with which the last command of an input blocks those of lower priority for ever.
+
+    Source: twist_mux (topic_handle.hpp, ``hasExpired``).
+    """
+    priorities = [number_of(entry.find("priority")) for _, entry in inputs]
+    for (name, entry), own in zip(inputs, priorities, strict=True):
+        value = entry.find("timeout")
+        is_above = own is not None and any(other is not None and other < own for other in priorities)
+        if value is not None and number_of(value) == 0.0 and is_above:
+            yield value, f"`timeout` of input `{name}` is 0, so its last command blocks the other inputs for ever"
 
 
 def _inputs(node: Node | None) -> list[tuple[str, Node]]:

@@ -90,6 +90,7 @@ def costmap_defects(model: Model) -> Defects:
         ):
             yield source, fixed, "`global_frame` is `odom`, but the static layer has a map in the frame `map`"
         yield from _footprint(each)
+        yield from _window(each)
         yield from _inflation(each, every)
 
 
@@ -151,6 +152,20 @@ def _footprint(each: Costmap) -> Defects:
             return
     if inscribed_radius(points) == 0.0 and not any(abs(x) < 1e-3 and abs(y) < 1e-3 for x, y in points):
         yield each.source, node, "`footprint` does not contain the origin of the robot; check the signs"
+
+
+def _window(each: Costmap) -> Defects:
+    """Yield the width or height of a rolling window that does not contain the footprint."""
+    found, rolls = footprint_of(each.group), each.group.find("rolling_window")
+    if found is None or rolls is None or rolls.text in _FALSE:
+        return
+    reach = max(hypot(x, y) for x, y in found[1])
+    for name in ("width", "height"):
+        value = each.group.find(name)
+        size = number_of(value)
+        if value is not None and size is not None and 0.0 < size < 2.0 * reach:
+            message = f"`{name}` is {size:g} m, but the robot reaches {reach:.3g} m from the middle of the costmap"
+            yield each.source, value, message
 
 
 def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]) -> bool:

@@ -27,8 +27,10 @@ from urdfkit.lint.facts.navigation.tables import (
     INTEGERS,
     MAY_BE_ZERO,
     MOTION_MODELS,
+    MPPI_MODELS,
     MUX,
     NODES,
+    PLANNERS_POSITIVE,
     POSITIVE,
     SIMILAR,
     SLAM_DOUBLES,
@@ -57,6 +59,10 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             for group in (root, *(value for _, value in root.entries)):
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
                     yield from filter_defects(group, controllers)
+        for node in (value for root in documents(source) for _, value in root.entries):
+            yield from _values(node, PLANNERS_POSITIVE) if node.find("vx_samples") is not None else ()
+        for node in documents(source) if "base_local_planner" in source.text else ():
+            yield from _values(node, frozenset(("controller_frequency",)))
         for node in costmaps_of_ros1(source):
             yield from choice_defects(node)
             yield from _plugins(node)
@@ -82,6 +88,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
                 yield from _contradictions(node)
             if name == "velocity_smoother":
                 yield from _velocity_limits(group)
+                yield from _stopped(group)
         elif name == "slam_toolbox":
             mode = group.find("mode")
             if mode is not None and mode.text and "$" not in mode.text and mode.text not in SLAM_MODES:
@@ -112,6 +119,11 @@ def _similar(node: Node) -> Defects:
     from urdfkit.lint.facts.ros_packages import is_slip
 
     for key, value in node.entries:
+        is_word = value.kind == "text" and re.fullmatch(r"\w+", value.text)
+        if key.text == "motion_model" and is_word and value.text not in MPPI_MODELS:
+            near = nearest(value.text, MPPI_MODELS) or next((e for e in MPPI_MODELS if value.text.startswith(e)), None)
+            hint = Suggestion(near, value.text) or f"; write one of {', '.join(MPPI_MODELS)}"
+            yield value, f"unknown `{key.text}` `{value.text}` of the MPPI controller" + hint
         choices = SIMILAR.get(key.text, ())
         if not choices or value.kind != "text" or value.text in choices:
             continue
@@ -186,17 +198,21 @@ def _plugins(node: Node) -> Defects:
             continue
         names = {word for _, word in listed}
         unlisted = [name for name in others if name not in names]
+        undefined = [word for word in names if word not in defined]
         for item, word in listed:
             has_type = key.text == "observation_sources" or names in DEFAULT_LISTS
             if word in defined and not has_type and "plugin" not in _keys(defined[word][1]):
                 yield defined[word][0], f"`{word}`, which `{key.text}` lists, has no `plugin`"
             if word in defined or any(each.text.startswith(f"{word}.") for each, _ in node.entries):
                 continue
-            near = nearest(word, unlisted, cutoff=0.6) or (unlisted[0] if len(others) == len(unlisted) == 1 else None)
+            near = nearest(word, unlisted, cutoff=0.6) or (
+                unlisted[0] if len(undefined) == len(unlisted) == 1 else None
+            )
+            is_needed = word not in DEFAULTS or (names not in DEFAULT_LISTS and len(others) > 1)
             if word in DEFAULTS and near is not None:
                 message = f"section `{near}` is not in `{key.text}`" + Suggestion(word, near)
                 yield defined[near][0], message
-            elif near is not None or (word not in DEFAULTS and key.text != "observation_sources" and others):
+            elif near is not None or (is_needed and key.text != "observation_sources" and others):
                 what = "topic" if key.text == "observation_sources" else "plugin"
                 yield (
                     item,
@@ -287,6 +303,24 @@ def _values(node: Node, positive: frozenset[str] = POSITIVE) -> Defects:
             yield value, f"`{name}` is {problem}"
         elif (number := number_of(value)) is not None and (number < 0.0 or (number == 0.0 and name not in MAY_BE_ZERO)):
             yield value, f"`{name}` is {number:g}; it must be positive"
+
+
+def _stopped(group: Node) -> Defects:
+    """Yield a dead band that contains every speed of its direction, and a timeout shorter than the period."""
+    bands, limits = group.find("deadband_velocity"), group.find("max_velocity")
+    pairs = zip(bands.items, limits.items, strict=False) if bands is not None and limits is not None else ()
+    for band, limit in pairs:
+        width, most = number_of(band), number_of(limit)
+        if width is not None and most is not None and 0.0 < most <= width:
+            yield (
+                band,
+                f"`deadband_velocity` has {width:g}, not less than `max_velocity`, {most:g}: the robot never moves",
+            )
+            break
+    rate, timeout = number_of(group.find("smoothing_frequency")), group.find("velocity_timeout")
+    time = number_of(timeout)
+    if timeout is not None and rate and time is not None and 0.0 < time < 1.0 / rate:
+        yield timeout, f"`velocity_timeout` is {time:g} s, shorter than the period, {1.0 / rate:g} s"
 
 
 def _velocity_limits(group: Node) -> Defects:

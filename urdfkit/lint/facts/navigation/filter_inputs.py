@@ -42,6 +42,10 @@ def filter_defects(group: Node, controllers: frozenset[str]) -> Iterator[tuple[N
             continue
         if at[2] == "config" and value.items and all(each.text == "false" for each in value.items):
             yield value, f"`{key.text}` is false for every value, so the filter does not use `{at[1]}`"
+        differential = group.find(f"{at[1]}_differential")
+        is_doubled = at[2] == "relative" and differential is not None and differential.text.lower() == "true"
+        if is_doubled and value.text.lower() == "true":
+            yield value, f"`{key.text}` has no effect, because `{at[1]}_differential` is true"
         if at[2] == "config" and at[1] not in inputs:
             others = [each for each in sorted(inputs) if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", each)]
             free = [each for each in others if f"{each}_config" not in inputs]
@@ -49,6 +53,7 @@ def filter_defects(group: Node, controllers: frozenset[str]) -> Iterator[tuple[N
             yield key, f"`{key.text}` has no topic `{at[1]}`" + hint
         if at[2] is not None and at[2] not in _OF_INPUTS:
             near = next((each for each in _OF_INPUTS if is_slip(at[2], each) or at[2].startswith(f"{each}u")), None)
+            near = near or ("remove_gravitational_acceleration" if at[2].startswith("remove_") else None)
             if near is not None:
                 yield (
                     key,

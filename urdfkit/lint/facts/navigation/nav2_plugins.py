@@ -2,7 +2,7 @@
 
 Sources: ros-navigation/navigation2 (nav2_bringup/params/nav2_params.yaml, nav2_behaviors/plugins.xml,
 nav2_behavior_server: behavior_server.cpp, nav2_dwb_controller: kinematic_parameters.cpp, xy_theta_iterator.hpp,
-nav2_costmap_2d: costmap_2d_ros.cpp), Galactic to Rolling.
+nav2_costmap_2d: costmap_2d_ros.cpp, nav2_behavior_tree: CMakeLists.txt), Galactic to Rolling.
 """
 
 from __future__ import annotations
@@ -42,6 +42,8 @@ def nav2_defects(source: Source) -> Defects:
             yield from _wrong_key(group)
             yield from _unlisted(name, group)
             yield from _driving(group)
+            yield from _single_plugins(group)
+            yield from _tree_libraries(group)
         yield from _swapped_frames(group)
     yield from _between_nodes({name: group for name, (_, group) in groups.items()})
 
@@ -115,6 +117,33 @@ def _driving(group: Node) -> Defects:
             near = next((each for each in sorted(names) if is_slip(first, each)), None)
             if dot and first not in names and near is not None:
                 yield key, f"`critics` does not list `{first}`" + Suggestion(near, first)
+
+
+def _single_plugins(group: Node) -> Defects:
+    """Yield the name of a plugin, not in a list, that has no section although another section has its kind."""
+    for parameter, kind in _SINGLE.items():
+        value = group.find(parameter)
+        names = [key.text for key, each in group.entries if re.search(kind, _class(each))]
+        if value is not None and re.fullmatch(r"\w+", value.text) and value.text not in names and names:
+            near = names[0] if len(names) == 1 else None
+            message = f"`{parameter}` is `{value.text}`, which has no section with its `plugin`"
+            yield value, message + Suggestion(near, value.text)
+
+
+_SINGLE = {"progress_checker_plugin": "ProgressChecker$", "waypoint_task_executor_plugin": "AtWaypoint$"}
+"""Parameter with the name of one plugin → the end of the class of such a plugin."""
+
+
+def _tree_libraries(group: Node) -> Defects:
+    """Yield the libraries of Nav2 behavior trees that have no such name.
+
+    All libraries of nav2_behavior_tree end in ``_bt_node``, except ``nav2_path_expiring_timer_condition``.
+    """
+    libraries = group.find("plugin_lib_names")
+    for item in libraries.items if libraries is not None else ():
+        if re.fullmatch(r"nav2_\w+(?<!_bt_node)(?<!_condition)", item.text):
+            right = re.sub(r"(?:_bt)?(?:_node)?$", "_bt_node", item.text, count=1)
+            yield item, f"nav2_behavior_tree has no library `{item.text}`" + Suggestion(right, item.text)
 
 
 def _swapped_frames(group: Node) -> Defects:

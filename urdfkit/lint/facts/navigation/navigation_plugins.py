@@ -1,6 +1,7 @@
 """Plugins of navigation: sections of planners that move_base does not load, separators, topics of costmaps.
 
-Sources: move_base (move_base.cpp, Noetic), navigation2 (behavior_server.cpp), docs.nav2.org
+Sources: move_base (move_base.cpp, Noetic), navigation2 (behavior_server.cpp, and parameter_handler.cpp of
+nav2_regulated_pure_pursuit_controller), docs.nav2.org
 (migration/Iron.rst, "Standardization of Plugin Naming", pull request 4220).
 """
 
@@ -16,6 +17,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
+from urdfkit.lint.facts.gazebo.steered_axles import tight_turns
 from urdfkit.lint.facts.navigation.plugin_parameters import foreign_parameters, repeated_plugins, short_model_steps
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.parameters.other_names import renamed_in
@@ -71,6 +73,7 @@ def plugin_defects(model: Model) -> Defects:
     planners = {
         at[1] for source in files for at in re.finditer(r"base_local_planner\s*:\s*[\"']?\w+/(\w+)", source.text)
     }
+    turns = {id(node) for _, node, _ in tight_turns(model)}
     for source in files:
         if PARAMETERS not in source.text:
             yield from _in_ros1(source, planners)
@@ -80,6 +83,25 @@ def plugin_defects(model: Model) -> Defects:
             yield from short_model_steps(source)
             yield from _mixed(source)
             yield from _costmap_topics(source)
+            yield from ((source, *each) for each in _backwards(source, turns))
+
+
+def _backwards(source: Source, turns: set[int]) -> Iterator[tuple[Node, str]]:
+    """Yield ``allow_reversing`` of a regulated pure pursuit controller that rotates, which switches it off.
+
+    Args:
+        source: a ROS 2 parameter file.
+        turns: the identities of the parameters that make a robot with steering rotate, which turn-too-tight reports.
+    """
+    for node in (each for _, group in sections(source) for each in walk(group)):
+        plugin, backwards, rotates = (node.find(name) for name in ("plugin", *_EXCLUSIVE))
+        if plugin is None or plugin.class_name != "RegulatedPurePursuitController" or backwards is None:
+            continue
+        if rotates is not None and id(rotates) not in turns and {backwards.text, rotates.text} <= {"true", "True"}:
+            yield backwards, f"`{_EXCLUSIVE[0]}` and `{_EXCLUSIVE[1]}` are both true; the controller never reverses"
+
+
+_EXCLUSIVE = ("allow_reversing", "use_rotate_to_heading")
 
 
 def _unread_sections(files: list[Source]) -> Defects:

@@ -70,8 +70,9 @@ _POSITIVE = """
 controller_frequency cycle_frequency inflation_radius resolution robot_radius smoothing_frequency update_frequency
 xy_goal_tolerance yaw_goal_tolerance z_resolution max_particles min_particles max_beams width height bt_loop_duration
 cost_scaling_factor default_server_timeout desired_linear_vel expected_planner_frequency lookahead_dist lookahead_time
-max_lookahead_dist min_lookahead_dist movement_time_allowance obstacle_max_range publish_frequency raytrace_max_range
-sim_time transform_tolerance required_movement_radius alpha1 alpha2 alpha3 alpha4 alpha5
+max_lookahead_dist min_lookahead_dist max_its movement_time_allowance obstacle_max_range publish_frequency
+raytrace_max_range rotational_acc_lim sim_time transform_tolerance required_movement_radius alpha1 alpha2 alpha3 alpha4
+alpha5
 """
 POSITIVE = frozenset(_POSITIVE.split())
 
@@ -85,8 +86,6 @@ MAY_BE_ZERO = frozenset(
             "alpha5",
             "robot_radius",
             "inflation_radius",
-            "width",
-            "height",
             "cost_scaling_factor",
             "expected_planner_frequency",
         ),
@@ -95,6 +94,9 @@ MAY_BE_ZERO = frozenset(
     )
 )
 """Parameters that may be zero."""
+
+PLANNERS_POSITIVE = frozenset(("acc_lim_theta", "acc_lim_x", "sim_time", "vx_samples", "vth_samples"))
+"""Parameters of the local planners of ROS 1 that are positive (dwa_local_planner: dwa_planner.cpp)."""
 
 _SLAM = """
 map_update_interval max_laser_range minimum_time_interval minimum_travel_distance minimum_travel_heading resolution
@@ -177,11 +179,13 @@ SIMILAR = {
         *("omni_directional",),
     ),
     "odom_model_type": ("diff", "omni", "diff-corrected", "omni-corrected"),
-    "motion_model": ("DiffDrive", "Omni", "Ackermann"),
     "motion_model_for_search": ("DUBIN", "REEDS_SHEPP", "STATE_LATTICE", "MOORE", "VON_NEUMANN"),
     "action_type": ("stop", "slowdown", "limit", "approach", "none"),
 }
 """Parameters for which a value that differs by a letter is misspelt; other values can be those of plugins."""
+
+MPPI_MODELS = ("DiffDrive", "Omni", "Ackermann")
+"""Values of ``motion_model`` of MPPI, which refuses others (nav2_mppi_controller: optimizer.cpp)."""
 
 COSTMAP_ROS1 = frozenset(
     (

@@ -39,6 +39,9 @@ _WITNESSES = ("robot_state_publisher", "rviz2", "joint_state_publisher", *_STOPP
 _FOR_ALL = ("SetParameter", "SetUseSimTime", "set_parameter")
 _IDLE = ("lifecycle_manager", "map_server", "map_saver_server")
 
+_OF_CLOCK = r"sim|gazebo|gz|real|hard|robot|fake|mock|\$\(eval|\bfalse\b"
+"""Matches a condition that may hold without a simulation only."""
+
 _SCOPES = r"\b(?:GroupAction|OpaqueFunction)\(|<group\b(?:(?!</group>).)*<include"
 """Matches launch files whose includes can be conditional without a condition of their own."""
 
@@ -85,12 +88,41 @@ def computer_time(model: Model) -> Defects:
                 is_key = element.tag == "arg" and key is not None and key.name == _KEY
                 if is_key and default is not None and default.name.lower() == "false" and not reads_ros1(source):
                     yield source, (default.start, default.end), _message()
-                if element.tag == "include" and not {"if", "unless"} & element.attributes.keys():
+                conditions = [element.attributes[key].name for key in ("if", "unless") if key in element.attributes]
+                if element.tag == "include" and not any(re.search(_OF_CLOCK, each) for each in conditions):
                     for child in element.children:
                         key, value = (child.attributes.get(each) for each in ("name", "value"))
                         is_key = child.tag in ("arg", "let") and key is not None and key.name == _KEY
                         if is_key and value is not None and value.name.lower() == "false":
                             yield source, (value.start, value.end), _message()
+
+
+def time_without_simulation(model: Model) -> Defects:
+    """Yield each ``use_sim_time`` that a Python file passes as true to an include, next to a publisher by hand.
+
+    joint_state_publisher_gui and Gazebo do not run together, and no other file includes this one.
+    """
+    for source, tree in python_files(model):
+        if "joint_state_publisher_gui" not in source.text or _KEY not in source.text:
+            continue
+        name = source.file.rpartition("/")[2]
+        others = [each.text for each in model.related_files.values() if each is not source]
+        is_alone = not re.search(_CLOCKS, source.text) and not any(name in text for text in others)
+        reader = launch_reader(tree)
+        for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call)) if is_alone else ():
+            words = {word.arg: word.value for word in call.keywords}
+            passed = words.get("launch_arguments") if name_of(call.func) == "IncludeLaunchDescription" else None
+            for inner in ast.walk(passed) if passed is not None else ():
+                pairs = zip(inner.keys, inner.values, strict=True) if isinstance(inner, ast.Dict) else ()
+                for key, value in pairs:
+                    is_key = key is not None and reader.text(key) == _KEY
+                    if is_key and isinstance(value, ast.Constant) and str(value.value).lower() == "true":
+                        message = f"`{_KEY}` is true, but this file starts no simulation, so the time stays at zero"
+                        yield source, place(source, value), message
+
+
+_CLOCKS = r"gazebo|gz_|ign_|_gz|webots|isaac|clock|rosbag|bag|simul(?!ated)"
+"""Matches a launch file that may start a publisher of the simulated time."""
 
 
 def _in_parameter_files(model: Model) -> Defects:

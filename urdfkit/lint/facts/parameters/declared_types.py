@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 from urdfkit.description.launch.python_constants import name_of
 from urdfkit.description.packages.related_files import neighbours
@@ -22,7 +23,7 @@ from urdfkit.lint.facts.parameters.schemas import schemas
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import node_texts, python_tree
 
-_OPEN = r"dynamic_typing|allow_undeclared_parameters|automatically_declare_parameters_from_overrides"
+OPEN = r"dynamic_typing|allow_undeclared_parameters|automatically_declare_parameters_from_overrides"
 """Matches code that accepts parameters of other types."""
 
 _NAMED = r"(?:__init__|create_node|Node|make_shared<[^<>]{1,80}>)\s*\(\s*[\"']([\w.-]+)[\"']"
@@ -34,7 +35,7 @@ _CPP_TYPES = (
     (r"std::string|\".*\"", "text"),
 )
 _PYTHON_TYPES = {bool: "bool", int: "int", float: "double", str: "text"}
-_SHOWN = {
+SHOWN = {
     **{"bool": "true or false", "int": "an integer", "double": "a number with a decimal point", "text": "a string"},
     **{"list of bool": "a list of Boolean values", "list of int": "a list of integers"},
     **{"list of double": "a list of numbers with decimal points", "list of text": "a list of strings"},
@@ -57,8 +58,8 @@ def wrong_types_of_own_nodes(model: Model) -> Iterator[tuple[Source, Node, str]]
             expected, written = types.get(parameter, ""), _type_of(value)
             if expected and written and expected != written:
                 right = f"; write {value.text}.0" if (expected, written) == ("double", "int") else ""
-                shown = f"`{value.text}`" if value.text else _SHOWN[written]
-                yield source, value, f"`{parameter}` is {shown}, but node `{name}` declares {_SHOWN[expected]}" + right
+                shown = f"`{value.text}`" if value.text else SHOWN[written]
+                yield source, value, f"`{parameter}` is {shown}, but node `{name}` declares {SHOWN[expected]}" + right
 
 
 def _declared(model: Model, names: set[str]) -> dict[str, dict[str, str]]:
@@ -74,14 +75,19 @@ def _declared(model: Model, names: set[str]) -> dict[str, dict[str, str]]:
     for package, folder in neighbours(model.package).items():
         model.expanded.packages.watch(folder)
         for path, text in node_texts(folder):
-            if "declare_parameter" not in text or re.search(_OPEN, text):
+            if "declare_parameter" not in text or re.search(OPEN, text):
                 continue
             own = {name for name in re.findall(_NAMED, text) if name in names}
             for name in own | started.get((package, path.stem), set()):
                 types = found.setdefault(name, {})
-                for parameter, kind in _in_python(text) if path.suffix == ".py" else _in_cpp(text):
+                for parameter, kind in declared_in(path, text):
                     types[parameter] = kind if types.get(parameter, kind) == kind else ""
     return found
+
+
+def declared_in(path: Path, text: str) -> Iterator[tuple[str, str]]:
+    """Yield name and type, empty if it is unknown, of each parameter that a file in Python or C++ declares."""
+    yield from _in_python(text) if path.suffix == ".py" else _in_cpp(text)
 
 
 def _in_python(text: str) -> Iterator[tuple[str, str]]:
@@ -98,10 +104,10 @@ def _in_python(text: str) -> Iterator[tuple[str, str]]:
             pairs += [item.elts for item in items if isinstance(item, ast.Tuple)]
         for pair in pairs:
             if len(pair) >= 2 and isinstance(pair[0], ast.Constant) and isinstance(pair[0].value, str):
-                yield pair[0].value, _of_python(pair[1])
+                yield pair[0].value, type_of_python(pair[1])
 
 
-def _of_python(node: ast.expr) -> str:
+def type_of_python(node: ast.expr) -> str:
     """Return the type of a constant; empty for other expressions."""
     try:
         value = ast.literal_eval(node)
@@ -125,13 +131,17 @@ def _in_cpp(text: str) -> Iterator[tuple[str, str]]:
 
 def _type_of(value: Node) -> str:
     """Return the type that rcl gives a value; empty if it is unknown."""
-    text = value.text
     if value.kind == "list":
         return _of_list({_type_of(item) if item.kind == "text" else "" for item in value.items})
-    if value.kind != "text" or not text or "$" in text:
+    if value.kind != "text" or not value.text:
         return ""
-    if not value.is_plain:
-        return "text"
+    return type_of_text(value.text) if value.is_plain or "$" in value.text else "text"
+
+
+def type_of_text(text: str) -> str:
+    """Return the type that YAML gives a text without quotes; empty if it is unknown."""
+    if "$" in text:
+        return ""
     if re.fullmatch(r"[-+]?\d+", text):
         return "int"
     if re.fullmatch(r"[-+]?(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][-+]?\d+)?", text):

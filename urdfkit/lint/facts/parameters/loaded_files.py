@@ -12,7 +12,7 @@ from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_file
-from urdfkit.description.packages.related_files import neighbours
+from urdfkit.description.packages.related_files import neighbours, package_of
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import ResourceError, nearest
@@ -47,6 +47,10 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         if parameters is None:
             continue
         text, name = uncommented(parameters), Path(parameters.file).name
+        below = tag.parent.attributes.get("pkg") if tag.parent is not None and tag.parent.name == "node" else None
+        if below is not None and below.value in _FLAT and "ns" in attributes and "$" not in attributes["ns"].value:
+            space = attributes["ns"].value.strip("/")
+            yield attributes["ns"], f"`{below.value}` reads its own parameters, not those in `{space}`; remove `ns`"
         is_replaced = "subst_value" in attributes and attributes["subst_value"].value.lower() != "false"
         use = re.search(_SUBSTITUTION, text)
         if use is not None and not is_replaced:
@@ -63,6 +67,10 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         if is_elsewhere and "kinematics_solver:" in text:
             read = "`robot_description_kinematics`"
             yield file, f"MoveIt reads the solvers of {name} from {read}, not from `{namespace.rpartition('/')[2]}`"
+
+
+_FLAT = ("amcl", "gmapping", "joy", "robot_localization", "teleop_twist_joy", "twist_mux")
+"""Packages whose nodes have no parameters of another namespace."""
 
 
 def unread_semantics(source: Source, model: Model) -> Defects:
@@ -119,6 +127,9 @@ def unloaded_pipelines(source: Source, model: Model) -> Defects:
         return
     texts = [uncommented(file) for file in ros1_files(model)]
     names = [at[1] for text in texts for at in re.finditer(r"planning_pipelines\b/?([^\"'\s<>/]*)", text)]
+    spaces = [_namespace(tag) for file in ros1_files(model) for tag in _tags(file) if "ns" in tag.attributes]
+    nested = [at[1] for space in spaces if (at := re.search(r"planning_pipelines/([^/]+)", space)) is not None]
+    names = [name for name in names if name] + nested if nested else names
     if not names or any("$" in name or not name for name in names):
         return
     for tag in _tags(source):
@@ -126,6 +137,42 @@ def unloaded_pipelines(source: Source, model: Model) -> Defects:
         is_default = tag.name == "param" and name is not None and name.value.endswith("default_planning_pipeline")
         if is_default and value is not None and "$" not in value.value and value.value not in names:
             yield value, f"planning pipeline `{value.value}` is not loaded; loaded: {', '.join(sorted({*names}))}"
+
+
+def controllers_without_manager(source: Source, model: Model) -> Defects:
+    """Yield the files with controllers of MoveIt that a ROS 1 launch file loads if no file names their manager."""
+    if any("moveit_controller_manager" in file.text for file in ros1_files(model)):
+        return
+    for tag in _tags(source) if "move_group" in source.text else ():
+        file = tag.attributes.get("file") if tag.name == "rosparam" and not _is_command(tag) else None
+        parameters = _read(file.value, model) if file is not None else None
+        if file is not None and parameters is not None and "controller_list:" in uncommented(parameters):
+            name = Path(parameters.file).name
+            yield file, f"no launch file sets `moveit_controller_manager`, so MoveIt does not read {name}"
+
+
+def unloaded_moveit_files(source: Source, model: Model) -> Defects:
+    """Yield the node ``move_group`` of ROS 1 for each file of its package with parameters that no launch file loads."""
+    for tag in _tags(source) if "moveit_ros_move_group" in source.text else ():
+        program = tag.attributes.get("type")
+        package = package_of(Path(source.file))
+        if tag.name != "node" or program is None or program.value != "move_group" or package is None:
+            continue
+        texts = [file.text for file in model.related_files.values() if file.file.endswith((".launch", ".xml"))]
+        for name, word in _OF_MOVE_GROUP.items():
+            path = shown_path(package / "config" / name)
+            parameters = model.related_files.get(path)
+            is_used = parameters is not None and re.search(rf"(?m)^\s*{word}:", parameters.text)
+            if is_used and not any(name in text or "$(arg pipeline)_planning" in text for text in texts):
+                yield program, f"no launch file loads {name}, which has parameters of `move_group`"
+
+
+_OF_MOVE_GROUP = {
+    "joint_limits.yaml": "joint_limits",
+    "kinematics.yaml": "kinematics_solver",
+    "ompl_planning.yaml": "planner_configs",
+}
+"""File of a MoveIt package → a word in it (moveit_setup_assistant, templates)."""
 
 
 def untimed_pipelines(source: Source) -> Defects:

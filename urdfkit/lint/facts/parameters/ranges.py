@@ -47,6 +47,7 @@ min_particles max_particles||5 200000
 xy_goal_tolerance||0.001 5 m
 yaw_goal_tolerance||0.001 6.3 rad
 max_vel_x max_vel_y max_vel_trans max_trans_vel max_speed_xy desired_linear_vel vx_max||0.01 50 m/s
+rotate_to_heading_min_angle||0.001 3.2 rad
 max_vel_theta max_rot_vel max_rotational_vel rotate_to_heading_angular_vel wz_max||0.01 50 rad/s
 acc_lim_x acc_lim_y acc_lim_trans||0.01 200 m/s²
 acc_lim_theta acc_lim_th rotational_acc_lim max_angular_accel||0.01 500 rad/s²
@@ -67,13 +68,17 @@ padding_scale|sensor_plugin|0.1 20
 padding_offset|sensor_plugin|0.0001 2 m
 max_range|sensor_plugin|0.05 200 m
 max_update_rate|sensor_plugin|0.001 200 Hz
-allowed_execution_duration_scaling||0.5 100
+allowed_execution_duration_scaling||1 100
 allowed_goal_duration_margin||0.001 600 s
 allowed_start_tolerance||0.00001 3.2
+goal|trajectory|0.00001 3.2
 """
 """Parameters, then parameters of which one is in the same group (any if empty), then range and unit."""
 
-_ANGLES = {"magnetic_declination_radians": 1.6, "yaw_offset": 6.3}
+_ANGLES = {
+    "magnetic_declination_radians": 1.6,
+    **dict.fromkeys(("yaw_offset", "initial_pose_a", "initial_pose.yaw"), 6.3),
+}
 """Parameter → its greatest sensible angle [rad]; the declination is below 0.6 rad except near the poles."""
 
 _Row = tuple[tuple[str, ...], float, float, str]
@@ -98,9 +103,11 @@ def out_of_range(source: Source) -> Iterator[tuple[Node, str]]:
     for node in (node for node in nodes(source) if node.entries):
         names = {key.text for key, _ in node.entries}
         for key, value in node.entries:
-            most, angle = _ANGLES.get(key.text), number_of(value) if value.kind == "text" else None
+            yaw = value.find("yaw") if key.text == "initial_pose" else None
+            name, turn = (f"{key.text}.yaw", yaw) if yaw is not None else (key.text, value)
+            most, angle = _ANGLES.get(name), number_of(turn) if turn.kind == "text" else None
             if most is not None and angle is not None and abs(angle) > most:
-                yield value, f"`{key.text}` is {angle:g} rad, more than {most:g} rad; convert it if it is in degrees"
+                yield turn, f"`{name}` is {angle:g} rad, more than {most:g} rad; convert it if it is in degrees"
             row = ranges.get(key.text)
             if row is None or (row[0] and names.isdisjoint(row[0])):
                 continue
@@ -114,6 +121,9 @@ def out_of_range(source: Source) -> Iterator[tuple[Node, str]]:
                 bound = f"more than {high:g}" if number > high else f"less than {low:g}"
                 yield item, f"`{key.text}` is {shown}, {bound} {unit}".rstrip() + "; check the unit and the value"
 
+
+_TURBO = (("scale_linear", "scale_linear_turbo"), ("scale_angular", "scale_angular_turbo"))
+"""Scales of teleop_twist_joy, and those of its turbo button."""
 
 _DISTINCT = (("enable_button", "enable_turbo_button"), ("axis_linear", "axis_angular"))
 """Parameters of teleop_twist_joy that must differ."""
@@ -138,6 +148,13 @@ def out_of_order(source: Source) -> Iterator[tuple[Node, str]]:
             least, most, value = numbers.get(low), numbers.get(high), node.find(low)
             if value is not None and least is not None and most is not None and 0.0 < _MAX_RATIO * most < least:
                 yield value, f"`{low}` is {least:g}, far more than `{high}`, {most:g}"
+        for slow, fast in _TURBO:
+            usual_axes, turbo_axes = node.find(slow), node.find(fast)
+            for axis, value in turbo_axes.entries if usual_axes is not None and turbo_axes is not None else ():
+                usual = number_of(usual_axes.find(axis.text)) if usual_axes is not None else None
+                turbo = number_of(value)
+                if usual is not None and turbo is not None and 0.0 < turbo < usual:
+                    yield value, f"`{fast}.{axis.text}` is {turbo:g}, less than `{slow}.{axis.text}`, {usual:g}"
         for one, other in _DISTINCT:
             value = node.find(other)
             if value is not None and numbers.get(one) is not None and numbers.get(one) == numbers.get(other):

@@ -2,7 +2,7 @@
 
 Sources (Humble to Rolling): ros-navigation/navigation2 (collision_monitor_node.cpp, polygon.cpp, source.cpp,
 velocity_smoother.cpp, amcl_node.cpp, bt_action_server_impl.hpp, controller_server.cpp, costmap_2d_ros.cpp,
-behavior_server.cpp), cra-ros-pkg/robot_localization (ros_filter.cpp), SteveMacenski/slam_toolbox
+behavior_server.cpp), cra-ros-pkg/robot_localization (ros_filter.cpp, navsat_transform.cpp), SteveMacenski/slam_toolbox
 (slam_toolbox_common.cpp), ros-teleop/twist_mux (twist_mux.cpp), ros2/teleop_twist_joy (teleop_twist_joy.cpp),
 ros-drivers/joystick_drivers (joy.cpp).
 """
@@ -51,6 +51,12 @@ process_noise_covariance initial_estimate_covariance: list double 15 225
 acceleration_limits deceleration_limits acceleration_gains deceleration_gains: list double 6
 control_config: list bool 6
 initial_state: list double 15
+
+navsat_transform navsat_transform_node
+frequency delay magnetic_declination_radians yaw_offset transform_timeout: double
+zero_altitude publish_filtered_gps use_odometry_yaw wait_for_datum broadcast_utm_transform use_local_cartesian: bool
+broadcast_utm_transform_as_parent_frame broadcast_cartesian_transform: bool
+broadcast_cartesian_transform_as_parent_frame: bool
 
 slam_toolbox
 debug_logging enable_interactive_mode use_scan_matching use_scan_barycenter do_loop_closing use_map_saver: bool
@@ -188,7 +194,7 @@ velocity_smoother|max_deceleration max_dec min_accel=max_decel
 velocity_smoother|max_vel=max_velocity
 velocity_smoother|min_vel=min_velocity
 velocity_smoother|frequency=smoothing_frequency
-map_server|map map_file map_path map_yaml map_yaml_file yaml_file_name yaml_path=yaml_filename
+map_server|map map_file map_path map_yaml map_yaml_file yaml_file yaml_file_name yaml_path=yaml_filename
 map_server|map_topic=topic_name
 map_server|map_frame frame=frame_id
 robot_state_publisher|rate publish_rate frequency=publish_frequency

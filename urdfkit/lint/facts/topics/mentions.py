@@ -37,6 +37,10 @@ _TYPES = {
 """Parameter without its number → type of the messages that the node reads."""
 
 
+_SENSED = ("Image", "Imu", "LaserScan", "NavSatFix", "Odometry", "PointCloud2")
+_BY_PARAMETER = ("nav2_amcl", "nav2_bt_navigator", "nav2_velocity_smoother", "slam_toolbox")
+
+
 @record(eq=False)
 class Mention:
     """A topic that a file names.
@@ -49,6 +53,7 @@ class Mention:
         type: ROS type of the messages that a node reads from it, without its package; empty if unknown.
         reader: the executable that has the topic by default; then the place is the executable.
         needs_all: whether the topic is reported only if all publishers are known.
+        own: the topics that the reader publishes.
     """
 
     source: Source
@@ -58,6 +63,7 @@ class Mention:
     type: str = ""
     reader: str = ""
     needs_all: bool = False
+    own: frozenset[str] = frozenset()
 
 
 def mentions(model: Model) -> Iterator[Mention]:
@@ -94,13 +100,21 @@ def mentions(model: Model) -> Iterator[Mention]:
 
 
 def topics_of_receivers(model: Model) -> Iterator[Mention]:
-    """Yield the topics by default from which nodes without namespace read the positions of satellite receivers."""
+    """Yield the topics by default from which nodes without namespace read sensors and odometry.
+
+    The topics of the nodes in `_BY_PARAMETER` depend on their parameters.
+    """
     for node in launched_nodes(model) if not remaps_groups(model) else ():
         topics = topics_of(node.package, node.program)
         is_open = node.has_more_remappings or node.namespace != "" or node.place is None
         for topic, kind in topics.read.items() if topics is not None and not is_open else ():
-            if kind == "NavSatFix" and node.place is not None and remapped(node, topic) == topic:
-                yield Mention(node.source, Named(topic, node.place[0]), type=kind, reader=node.program, needs_all=True)
+            is_fixed = kind in _SENSED and node.package not in _BY_PARAMETER
+            if is_fixed and node.place is not None and remapped(node, topic) == topic:
+                own = (
+                    frozenset(remapped(node, each) for each in topics.published) if topics is not None else frozenset()
+                )
+                at = Named(topic, node.place[0])
+                yield Mention(node.source, at, type=kind, reader=node.program, needs_all=True, own=own)
 
 
 def _in_elements(source: Source) -> Iterator[Mention]:

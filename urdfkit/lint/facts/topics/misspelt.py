@@ -117,7 +117,7 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
     }
     for mention in read:
         is_all = closed[mention.type]
-        topic, topics = mention.topic.name.strip("/"), by_type[is_all].get(mention.type, set())
+        topic, topics = mention.topic.name.strip("/"), by_type[is_all].get(mention.type, set()) - mention.own
         if (
             topic in topics
             or topic in seen

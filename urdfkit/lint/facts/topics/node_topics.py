@@ -1,8 +1,9 @@
 """Topics that the nodes of well-known packages read and publish, under the names that launch files remap.
 
 Sources: robot_localization (ros_filter.cpp, navsat_transform.cpp), nav2_velocity_smoother (velocity_smoother.cpp),
-nav2_util (twist_publisher.hpp), twist_mux (twist_mux.cpp), teleop_twist_joy (README.md), phidgets_drivers
-(phidgets_spatial/README.md, phidgets_gyroscope/README.md). The other rows were not compared with the sources.
+nav2_util (twist_publisher.hpp), twist_mux (twist_mux.cpp), teleop_twist_joy (README.md), image_proc (rectify.cpp),
+phidgets_drivers (phidgets_spatial/README.md, phidgets_gyroscope/README.md). The other rows were not compared with the
+sources.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ amcl nav2_amcl slam_toolbox gmapping|scan:LaserScan|
 move_base|odom:Odometry|
 nav2_bt_navigator|odom:Odometry|
 octomap_server|cloud_in:PointCloud2|
+image_proc/rectify_node|image:Image|image_rect:Image
 nav2_velocity_smoother|odom:Odometry|
 robot_localization/ekf_node,ukf_node,ekf_localization_node,ukf_localization_node||odometry/filtered:Odometry
 robot_localization/navsat_transform_node|imu:Imu odometry/filtered:Odometry gps/fix:NavSatFix|odometry/gps:Odometry\

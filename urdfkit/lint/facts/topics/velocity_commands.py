@@ -142,6 +142,7 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     drives = drive_command_topics(model) if nodes else frozenset()
     every = velocity_inputs(model) if nodes else drives
     own = [(node.source.file, name.start) for node, old, new in written for name in (old, new)]
+    own += [(node.source.file, old.start) for node in launched_nodes(model) for old, _ in node.remappings]
     used = {new.name.strip("/") for _, _, new in written}
     muxes = {node.source.file for node in nodes if node.package == "twist_mux"}
     words, seen = Words(model), set[str]()

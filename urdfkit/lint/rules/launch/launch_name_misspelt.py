@@ -13,6 +13,7 @@ from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _NAMES = ("use_sim_time", "robot_description")
+_PLURAL = ("use_sim_times", "use_sim_time")
 _OF_MOVEIT = tuple(f"robot_description_{name}" for name in ("semantic", "planning", "kinematics"))
 _TOPICS = (*_NAMES, "joint_states", "controller_manager", *_OF_MOVEIT)
 _QUOTED = r"[\"'](?:(?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,28})|[\w~/]*/(?P<dashed>[A-Za-z][\w-]{8,20}))[\"']"
@@ -42,6 +43,7 @@ class LaunchNameMisspelt(RobotRule):
     - keys in YAML files that resemble ``use_sim_time`` or ``robot_description``
     - topics that the remappings of common nodes replace, and parameters of common nodes such as
       ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``, also under the names of other nodes
+    - parameters of the nodes of the workspace that their code neither declares nor names
     - namespaces of costmaps, which must be ``local_costmap`` or ``global_costmap``
     - worlds without a path, which must be worlds of Gazebo
 
@@ -75,7 +77,13 @@ class LaunchNameMisspelt(RobotRule):
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
         from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
+        from urdfkit.lint.facts.parameters.own_parameters import undeclared_parameters
 
+        for source, place, undeclared, near in undeclared_parameters(model):
+            message = f"the code of the node does not declare the parameter `{undeclared}`"
+            yield self.at_span(
+                source.span(*place), message + Suggestion(near, undeclared), severity="warning", names=(undeclared,)
+            )
         for source in model.related_files.values():
             is_launch = source.file.endswith(LAUNCH)
             if not is_launch and not source.file.endswith((".yaml", ".yml")):
@@ -148,7 +156,8 @@ class LaunchNameMisspelt(RobotRule):
 def _nearest(written: str, names: tuple[str, ...]) -> str | None:
     from urdfkit.lint.facts.ros_packages import is_slip
 
-    return next((name for name in names if written != name and is_slip(written, name)), None)
+    others = (name for name in names if written != name)
+    return next((name for name in others if is_slip(written, name) or (written, name) == _PLURAL), None)
 
 
 def _remapped(source: Source) -> Iterator[tuple[Named, str]]:

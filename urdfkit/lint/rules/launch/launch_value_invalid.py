@@ -35,8 +35,8 @@ class LaunchValueInvalid(RobotRule):
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
-    - parameter files with substitutions but without ``subst_value``, and MoveIt files in the wrong namespace or
-      parameter
+    - parameter files with substitutions but without ``subst_value``, files in the wrong namespace or parameter, and
+      MoveIt files that no launch file loads
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,
@@ -68,8 +68,10 @@ class LaunchValueInvalid(RobotRule):
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
         from urdfkit.lint.facts.parameters.launch_parameters import launch_parameter_defects
         from urdfkit.lint.facts.parameters.loaded_files import (
+            controllers_without_manager,
             loaded_file_defects,
             spawned_while_paused,
+            unloaded_moveit_files,
             unloaded_pipelines,
             unread_semantics,
             untimed_pipelines,
@@ -94,6 +96,8 @@ class LaunchValueInvalid(RobotRule):
             found_in_files = (
                 *loaded_file_defects(source, model),
                 *unloaded_pipelines(source, model),
+                *controllers_without_manager(source, model),
+                *unloaded_moveit_files(source, model),
                 *spawned_while_paused(source, model),
                 *unread_semantics(source, model),
                 *untimed_pipelines(source),

@@ -10,7 +10,9 @@ class NodeArgumentsMissing(RobotRule):
     Checks the launch files for programs that stop without arguments: in ROS 1 ``map_server``, ``spawn_model``, the
     spawner of controllers, ``rosbag play``, the programs of ``topic_tools`` and ``static_transform_publisher``; in
     ROS 2 the spawner of controllers and ``spawn_entity.py``, ``parameter_bridge`` and ``create`` without parameters,
-    ``map_server`` without ``yaml_filename``, and ``move_group`` without a planning pipeline.
+    ``map_server`` without ``yaml_filename``, and ``move_group`` without a planning pipeline. Also reports a Gazebo
+    without ``-r`` that no user can start, or on which spawners of controllers wait, and a lifecycle manager whose
+    ``autostart`` is false if nothing calls its service.
 
     ## Why is this bad?
     The node prints its usage message and exits, or waits without effect.
@@ -32,7 +34,14 @@ class NodeArgumentsMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node without the arguments that it needs."""
-        from urdfkit.lint.facts.nodes.needed_arguments import nodes_without_arguments
+        from urdfkit.lint.facts.nodes.needed_arguments import (
+            idle_managers,
+            nodes_without_arguments,
+            paused_simulations,
+        )
+        from urdfkit.lint.facts.nodes.unloaded_sections import maps_without_file
 
-        for source, place, message in nodes_without_arguments(model):
+        for source, place, message in (*idle_managers(model), *paused_simulations(model)):
+            yield self.at_span(source.span(*place), message, severity="warning")
+        for source, place, message in (*nodes_without_arguments(model), *maps_without_file(model)):
             yield self.at_span(source.span(*place), message)

@@ -47,7 +47,10 @@ class NodeNameMisspelt(RobotRule):
         from urdfkit.lint.facts.connections.parameter_sections import sections_elsewhere
         from urdfkit.lint.facts.nodes.names import misnamed
         from urdfkit.lint.facts.nodes.nodelets import unmanaged_nodelets
+        from urdfkit.lint.facts.nodes.unloaded_sections import nodes_without_section
 
+        for source, place, message in nodes_without_section(model):
+            yield self.at_span(source.span(*place), message)
         for _, span, message in misnamed(model):
             yield self.at_span(span, message)
         for span, message in sections_elsewhere(model):

@@ -74,7 +74,7 @@ class MoveitConfigurationMissing(RobotRule):
         from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import nearest
 
-        near = nearest(builder.package, packages, cutoff=0.8) if builder.package not in packages else None
+        near = nearest(builder.package, packages, cutoff=0.7) if builder.package not in packages else None
         stems = [name.partition("_moveit")[0] for name in (builder.package, near or "")]
         if near is not None and (stems[0] == stems[1] or is_slip(builder.package, near)):
             message = f"unknown package `{builder.package}`" + Suggestion(near, builder.package)

@@ -74,7 +74,9 @@ class MoveitSettingInvalid(RobotRule):
                 *incomplete_entries(source, is_ros2, has_manager),
                 *cartesian_limit_defects(source),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
-                *projection_defects(source, root, model.robot),
+                *projection_defects(
+                    source, root, model.robot, [text for name, text in texts.items() if name != source.file]
+                ),
             ]
             for node, message in defects:
                 yield self.at_span(span_of(source, node), message)

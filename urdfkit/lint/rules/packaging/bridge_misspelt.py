@@ -202,10 +202,12 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
         elif bridge.direction is not None and _type(bridge) in _PUBLISHED and direction.startswith("ROS_TO_"):
             message = f"Gazebo publishes `{_type(bridge)}` and does not read it; bridge it from Gazebo to ROS"
             yield source, bridge.direction, message
-        elif topic not in robot_topics and not topic.startswith(("world/", "model/")) and "$" not in topic:
+        elif topic not in robot_topics and not topic.startswith("world/") and "$" not in topic:
             same = [name for name, kind in kinds if kind == _type(bridge)]
             free = sorted({name for name in same if (source.file, name) not in bridged_topics})
             pattern = rf"topic>\s*/?{re.escape(topic)}\s*<"
+            if topic.startswith("model/"):  # the defaults of plugins, unless the robot names its own topic in this way
+                free = [name for name in free if re.fullmatch(rf"model/[^/]+/{topic.rpartition('/')[2]}", name)]
             texts = [each.text for each in model.expanded.sources.values()]
             is_convertible = _type_defect(bridge) is None
             if (

@@ -21,6 +21,12 @@ _IN_PYTHON = r"[\"'](\w+)([\"'])\s*:\s*[\"']([\w/]+)[\"']"
 _IN_LAUNCH = ("robot_base_frame", "base_frame", "base_frame_id", "base_link_frame", "base_link_frame_id")
 """Parameters of nodes in launch files that name a link of the robot."""
 
+_OF_OCTOMAP = (
+    r"(?m)[\"']?\b(octomap_frame)\b([\"']?)(?:\s*:\s*|\s+(?:type=\"\w+\"\s+)?value=)[\"']?([\w/]+)[\"']?"
+    r"[ \t]*(?=[,}/>\r]|$)"
+)
+"""Matches the frame of the octomap of MoveIt in launch files and YAML."""
+
 _ANY_FRAME = ("frame_id", "sensor_frame")
 """Parameters that can name frames of other robots."""
 
@@ -35,6 +41,7 @@ class FrameUndefined(RobotRule):
     - for arms, ``base_link``, ``root_link``, ``tip_link`` and ``ee_link``
     - ``frame_id`` and ``sensor_frame``, if the name differs from a link by one letter
     - in launch files, the frames of well-known drivers of sensors
+    - the frame of the octomap of MoveIt, which another file must name
 
     The rule reports misspelt link names, unless another description in these packages defines a link of that name.
     Other names are reported in three places if no other file in these packages mentions them: as a frame of a drive
@@ -82,6 +89,9 @@ class FrameUndefined(RobotRule):
                 name = match[3].rpartition("/")[2]
                 if name in links_by_name:
                     continue
+                if match[1] == "octomap_frame":
+                    yield from self._of_octomap(source, match, model)
+                    continue
                 suggestion, hint = meant(name, links_by_name)
                 needs_slip = match[1] in _ANY_FRAME or not source.file.endswith((".yaml", ".yml"))
                 is_slip_of_link = suggestion is not None and (not needs_slip or is_slip(name, suggestion))
@@ -96,9 +106,18 @@ class FrameUndefined(RobotRule):
                 )
                 yield from unless_masked(model, name, suggestion, finding)
 
+    def _of_octomap(self, source: Source, match: re.Match[str], model: Model) -> Findings:
+        """Yield a finding for the frame of the octomap if nothing else in these packages names it."""
+        from urdfkit.lint.facts.topics.words import Words
+
+        if not model.is_incomplete and Words(model).occurs_once(match[3]):
+            message = f"no other file names the frame `{match[3]}` of the octomap"
+            yield self.at_span(source.span(*match.span(3)), message, link=match[3])
+
 
 def _named(source: Source, text: str) -> Iterator[re.Match[str]]:
     """Yield the parameters that name a link: the name in group 1 and the link in group 3."""
+    yield from re.finditer(_OF_OCTOMAP, text) if "octomap_frame" in text else ()
     if source.file.endswith((".yaml", ".yml")):
         yield from re.finditer(_FRAME, text)
     elif source.file.endswith(LAUNCH) and "frame" in text:

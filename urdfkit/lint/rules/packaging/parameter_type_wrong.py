@@ -9,8 +9,8 @@ class ParameterTypeWrong(RobotRule):
     ## What it does
     Compares the numbers in the parameters of ros2_controllers, Nav2 and robot_localization, and in the joint limits of
     MoveIt 2, with the types that the nodes declare. Parameters of the nodes of the workspace are compared with the
-    defaults that their Python or C++ code declares. Also checks lists of numbers in the parameters of all ROS 2 nodes:
-    the elements of a list must have one type.
+    defaults that their Python or C++ code declares, in launch files too. Also checks lists of numbers in the parameters
+    of all ROS 2 nodes: the elements of a list must have one type.
 
     ## Why is this bad?
     rclcpp does not convert integers: the controller is not configured, "parameter 'constraints.goal_time' has invalid
@@ -42,9 +42,12 @@ class ParameterTypeWrong(RobotRule):
         from urdfkit.lint.facts.navigation.defects import wrong_numbers
         from urdfkit.lint.facts.parameters.declared_types import wrong_types_of_own_nodes
         from urdfkit.lint.facts.parameters.node_parameters import wrong_numbers_of_nodes
+        from urdfkit.lint.facts.parameters.own_parameters import wrong_types_in_launch, wrong_types_of_released_nodes
 
         for source, value, message in wrong_types_of_own_nodes(model):
             yield self.at_span(span_of(source, value), message)
+        for source, place, message in (*wrong_types_in_launch(model), *wrong_types_of_released_nodes(model)):
+            yield self.at_span(source.span(*place), message)
         for source in {each.file: each for each, _ in moveit_yamls(model)}.values():
             for value, name in integer_limits(source) if ros_version(source) == 2 else ():
                 message = f"`{name}` is the integer {value.text}; write {value.text}.0"

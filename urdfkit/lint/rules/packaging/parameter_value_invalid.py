@@ -30,6 +30,7 @@ class ParameterValueInvalid(RobotRule):
     - rates, wheel sizes, limits and tolerances that are negative, zero or not a number
     - numbers and Boolean values in quotes, and names that are not in a list
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
+    - an update rate that is higher than that of the physics of Gazebo
     - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
     - minimum velocities above zero, and parameters that are indented to the level of controllers
 
@@ -88,6 +89,7 @@ class ParameterValueInvalid(RobotRule):
         )
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+        from urdfkit.lint.facts.gazebo.update_rates import rates_above_physics
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
         from urdfkit.lint.facts.navigation.collision_monitors import monitor_defects, mux_defects
         from urdfkit.lint.facts.navigation.defects import navigation_defects
@@ -104,6 +106,7 @@ class ParameterValueInvalid(RobotRule):
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
         names = frozenset(name for source in yamls(model) for name in controllers(source))
         of_workspace = (*published_twice(model), *node_defects_of_ros1(model), *positions_in_other_units(model))
+        of_workspace += tuple(rates_above_physics(model))
         for source, place, message in of_workspace:
             yield self.at_span(span_of(source, place), message)
         for source in yamls(model):

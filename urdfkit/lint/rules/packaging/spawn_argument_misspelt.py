@@ -273,8 +273,23 @@ def _without_source(node: Started) -> Iterator[tuple[int, str, str]]:
     if node.program != "create" and first is not None and not is_open and not sources & (options | misspelt):
         named = "topic" if node.program == "spawn_entity.py" else "param"
         yield first.start, first.name, f"`{node.program}` needs a source of the description, such as `-{named}`"
+    elif node.program in _NAMED and first is not None and not is_open and not _names(node, options):
+        yield first.start, first.name, f"`{node.program}` needs the name of the model, `-{_NAMED[node.program]}`"
     elif node.program == "spawn_model" and first is not None and not is_open and not (options | misspelt) & _FORMATS:
         yield first.start, first.name, "`spawn_model` needs the format of the description, `-urdf` or `-sdf`"
+
+
+_NAMED = {"spawn_entity.py": "entity", "spawn_model": "model"}
+"""Program → its required option for the name (gazebo_ros, scripts/spawn_entity.py and spawn_model)."""
+
+
+def _names(node: Started, options: set[str]) -> bool:
+    """Return whether an option is the name of the model, or a misspelling of it."""
+    wanted = _NAMED[node.program]
+    return any(
+        wanted in (option, _SYNONYMS[node.program].get(option), _nearest_option(option, (wanted,)))
+        for option in options
+    )
 
 
 def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:

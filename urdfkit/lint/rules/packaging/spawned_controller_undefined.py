@@ -17,6 +17,7 @@ class SpawnedControllerUndefined(RobotRule):
     - misspellings of a controller with a type in the YAML files of these packages
     - in ROS 2, controllers whose parameters are in a file that gives a type only to other controllers
     - in ROS 1, controllers that the same launch file loads in a namespace other than that of the spawner
+    - the only controller of a file that no launch file spawns, if no other one moves its joints
     - in ROS 1, spawners in a namespace other than that of ``gazebo_ros_control``
 
     Python launch files are parsed, not executed.
@@ -49,7 +50,7 @@ class SpawnedControllerUndefined(RobotRule):
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.launched_nodes import started
         from urdfkit.lint.facts.control.spawned_namespaces import plugins_in_other_namespace
-        from urdfkit.lint.facts.control.spawned_together import SPAWNERS, spawned, untyped
+        from urdfkit.lint.facts.control.spawned_together import SPAWNERS, left_out, spawned, untyped
         from urdfkit.lint.facts.control.yaml_tree import span_of
 
         launches = [file for file in model.related_files.values() if re.search(r"spawner", file.text)]
@@ -63,6 +64,9 @@ class SpawnedControllerUndefined(RobotRule):
             message = f"controller `{key.text}` has no `type`, but {launch.file} spawns it"
             help = "add it to the parameters of `controller_manager`"
             yield self.at_span(span_of(source, key), message, help=help)
+        for source, word, name in left_out(model):
+            message = f"no launch file spawns controller `{name}`, unlike the others of its file"
+            yield self.at_span(source.span(word.start, word.end), message, names=(name,))
         for source in launches:
             if source.file.endswith(".launch"):
                 yield from self._namespaces(source, model)
