@@ -24,6 +24,7 @@ SOURCE: tuple[Row, ...] = (
     ("<inertial", "xacro.inertia_arguments", "InertiaArguments"),
     ("*.urdf", "xacro.xacro_in_plain_urdf", "XacroInPlainUrdf"),
     ("macro", "names.prefix_missing", "PrefixMissing"),
+    ("macro", "xacro.block_never_inserted", "BlockNeverInserted"),
 )
 
 FAULTS: tuple[Row, ...] = (
@@ -162,6 +163,8 @@ ROBOT: tuple[Row, ...] = (
         "JointContradictsName",
     ),
     ("part!", "semantics.twins_turn_differently", "TwinsTurnDifferently"),
+    ("collision visual", "semantics.links_overlap", "LinksOverlap"),
+    ("type=revolute type=prismatic", "semantics.joint_moves_into_robot", "JointMovesIntoRobot"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),

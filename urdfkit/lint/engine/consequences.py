@@ -13,6 +13,24 @@ if TYPE_CHECKING:
     Pattern = tuple[str, str]
     """Code of a rule, and `Finding.kind`; an empty kind matches all findings of the rule."""
 
+_PLACES = (
+    "G619",
+    "J405",
+    "J407",
+    "J411",
+    "J421",
+    "J427",
+    "S908",
+    "S909",
+    "S910",
+    "S917",
+    "S919",
+    "T204",
+    "T206",
+    "X128",
+)
+"""Codes of findings on places, sizes and directions, which explain why links are in each other."""
+
 _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("E010", ""), "line", ("X124", "")),
     (("E014", "attribute"), "line", ("E009", "")),
@@ -137,6 +155,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T207", ""), "robot", ("M108", "joint")),
     (("T207", ""), "robot", ("Z802", "undefined")),
     (("Z817", ""), "robot", ("K969", "topic")),
+    *(((code, ""), "robot", ("S920", "")) for code in _PLACES),
+    *(((code, ""), "robot", ("S921", "")) for code in (*_PLACES, "S920")),
 )
 """Cause, relation and consequence.
 

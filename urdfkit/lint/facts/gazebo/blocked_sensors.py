@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, dist, inf, isfinite, pi, sin, sqrt
+from math import cos, dist, inf, isfinite, pi, sin
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.geometry import rotate
 from urdfkit.description.urdf.robot import Box, Cylinder, GazeboBlock, Geometry, Pose, SensorTag, Sphere, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number, numbers
+from urdfkit.lint.facts.placement.solids import depth, diagonal, half_sizes, local, turned_back
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import Frame
 
@@ -64,7 +65,9 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str,
                 and attached.body_of(solid[0]) == attached.body_of(block.reference or "")
                 and dist(solid[2].translation, eye.translation) > _PLACED
             ]
-            around = next((name for name, shape, at in solids if _depth(shape, _local(at, eye)) > _INSIDE), None)
+            around = next(
+                (name for name, shape, at in solids if depth(shape, local(at, eye.translation)) > _INSIDE), None
+            )
             if around is not None:
                 yield block, sensor, f"sensor `{sensor.name}` is inside the shape of link `{around}`", "xyz"
                 continue
@@ -89,24 +92,8 @@ def _solids(model: Model) -> Iterator[Solid]:
         frame = model.frames.get(link.name)
         for shape in (link.visuals or link.collisions) if frame is not None else ():
             geometry = shape.geometry
-            if frame is not None and isinstance(geometry, (Box, Cylinder, Sphere)) and _diagonal(geometry) > _HOUSING:
+            if frame is not None and isinstance(geometry, (Box, Cylinder, Sphere)) and diagonal(geometry) > _HOUSING:
                 yield link.name, geometry, frame.moved(shape.origin)
-
-
-def _diagonal(shape: Geometry) -> float:
-    half = _half(shape)
-    return 2.0 * sqrt(sum(part * part for part in half))
-
-
-def _half(shape: Geometry) -> Vector:
-    """Return half the sizes of the box around a shape, in its own frame [m]."""
-    if isinstance(shape, Box):
-        x, y, z = shape.size
-        return x / 2.0, y / 2.0, z / 2.0
-    if isinstance(shape, Cylinder):
-        return shape.radius, shape.radius, shape.length / 2.0
-    radius = shape.radius if isinstance(shape, Sphere) else 0.0
-    return radius, radius, radius
 
 
 def _pose(sensor: Element) -> Pose | None:
@@ -142,31 +129,11 @@ def _first(solids: list[Solid], eye: Frame, yaw: float, pitch: float) -> str | N
     return name if distance < _NEAR else None
 
 
-def _local(at: Frame, eye: Frame) -> Vector:
-    offset = [a - b for a, b in zip(eye.translation, at.translation, strict=True)]
-    return _turned_back(at, (offset[0], offset[1], offset[2]))
-
-
-def _turned_back(at: Frame, vector: Vector) -> Vector:
-    x, y, z = (sum(at.rotation[i][k] * vector[i] for i in range(3)) for k in range(3))
-    return x, y, z
-
-
-def _depth(shape: Geometry, point: Vector) -> float:
-    """Return the depth of a point below the surface of a shape [m]; negative outside."""
-    x, y, z = point
-    if isinstance(shape, Sphere):
-        return shape.radius - sqrt(x * x + y * y + z * z)
-    if isinstance(shape, Cylinder):
-        return min(shape.radius - sqrt(x * x + y * y), shape.length / 2.0 - abs(z))
-    return min(half - abs(part) for half, part in zip(_half(shape), point, strict=True))
-
-
 def _distance(shape: Geometry, at: Frame, start: Vector, direction: Vector) -> float:
     """Return the distance along a ray to the box around a shape [m]; infinite if the ray misses it or starts inside."""
-    point, heading = _local(at, Frame(translation=start)), _turned_back(at, direction)
+    point, heading = local(at, start), turned_back(at, direction)
     enter, leave = 0.0, inf
-    for place, part, half in zip(point, heading, _half(shape), strict=True):
+    for place, part, half in zip(point, heading, half_sizes(shape), strict=True):
         if abs(part) < 1e-12:
             if abs(place) > half:
                 return inf

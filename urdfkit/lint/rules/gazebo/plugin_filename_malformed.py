@@ -10,8 +10,9 @@ class PluginFilenameMalformed(RobotRule):
     """The file name of a plugin is missing or malformed.
 
     ## What it does
-    Checks for plugins without ``filename``, for white space and line breaks in it, and for libraries of Gazebo Classic
-    without the prefix ``lib`` or the suffix ``.so``.
+    Checks for plugins without ``filename``, for white space and line breaks in it, for a class such as
+    ``gz::sim::systems::Imu`` in its place, and for libraries of Gazebo Classic without the prefix ``lib`` or the suffix
+    ``.so``.
 
     ## Why is this bad?
     Gazebo reports "Failed to load plugin", because the file does not exist.
@@ -46,6 +47,11 @@ class PluginFilenameMalformed(RobotRule):
                 yield self.at(model, plugin.element, message, attribute="filename", help=help)
                 continue
             if "$" in name or model.is_unresolved(plugin.element, "filename"):
+                continue
+            if "::" in name:
+                message = f"plugin file name `{name}` is the name of a class"
+                help = "write the file name of the library; the class belongs into the attribute name"
+                yield self.at(model, plugin.element, message, attribute="filename", help=help)
                 continue
             corrected = "".join(name.split())
             if corrected != name:

@@ -4,6 +4,7 @@ from math import dist, inf, sqrt
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.robot import Joint, Pose
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.model.placement import Extent, Frame, offset_of, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -34,6 +35,9 @@ _MIN_OPEN, _OPEN = 0.02, 0.2
 _CLOSED = 0.1
 """Largest ratio of the distances of the other moving joints to that distance."""
 
+_MIRRORED = 0.3
+"""Smallest ratio of the gap to the size of the parent link for a joint that would be at the link with another sign."""
+
 _MAX_CHECKED = 50
 """Largest number of joints for which the gap is computed."""
 
@@ -53,9 +57,10 @@ class OriginTooFar(RobotRule):
     two lengths: the size of the largest link, and four times the size of the larger link of the joint.
 
     A moving joint outside the bounding box of its parent link is reported if every other moving joint is inside or at
-    the box of its parent link. Joints of a root link without shapes are not checked, because they place the robot in
-    the world. If no size is known, because the meshes are missing, the distance is compared with the distances of all
-    other joints.
+    the box of its parent link, or if it is the only one that would be at its parent link with another sign of a
+    coordinate. The joints of one macro count as one. Joints of a root link without shapes are not checked, because they
+    place the robot in the world. If no size is known, because the meshes are missing, the distance is compared with the
+    distances of all other joints.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,
@@ -154,15 +159,46 @@ class OriginTooFar(RobotRule):
         ]
         if len(gaps) < len(moving):
             return
-        (second, _, _), (gap, joint, size) = sorted(gaps, key=lambda each: each[0])[-2:]
+        largest: dict[Position, tuple[float, Joint, float]] = {}  # The joints of one macro count as one.
+        for each in gaps:
+            position = (each[1].element.find("origin") or each[1].element).origin.position
+            if position not in largest or each[0] > largest[position][0]:
+                largest[position] = each
+        if len(largest) < 2:
+            return
+        (second, _, _), (gap, joint, size) = sorted(largest.values(), key=lambda each: each[0])[-2:]
         origin = joint.element.find("origin")
-        if gap < max(_MIN_OPEN, _OPEN * size) or second > _CLOSED * gap or origin is None:
+        if gap < max(_MIN_OPEN, _OPEN * size) or origin is None:
+            return
+        if second > _CLOSED * gap:
+            yield from self._mirrored(model, list(largest.values()))
             return
         if _is_carried(joint, model):
             return
         message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
         message += "all other moving joints are at their parent links"
         help = "check the axes, signs and units of the origin"
+        yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+    def _mirrored(self, model: Model, gaps: list[tuple[float, Joint, float]]) -> Findings:
+        """Yield a finding for the only moving joint that would be at its parent link with another sign."""
+        wrong: list[tuple[Joint, float, float]] = []
+        for gap, joint, size in gaps:
+            parent = model.extents[joint.parent or ""]
+            if gap < max(_MIN_OPEN, _MIRRORED * size):
+                continue
+            for axis in range(3):
+                x, y, z = (-part if k == axis else part for k, part in enumerate(joint.origin.xyz))
+                if parent.outside((x, y, z)) <= _OPEN * gap:
+                    wrong.append((joint, gap, joint.origin.xyz[axis]))
+                    break
+        if len(wrong) != 1:
+            return
+        joint, gap, part = wrong[0]
+        message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`, "
+        message += f"but would be at the link with {-part:.3g} m instead of {part:.3g} m"
+        help = "check the sign of the origin, and those of the shapes of the parent link"
+        origin = joint.element.find("origin") or joint.element
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
 
 

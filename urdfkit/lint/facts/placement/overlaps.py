@@ -1,0 +1,168 @@
+"""Links that lie in other links of the robot with every joint at zero."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.urdf.robot import Joint, Mesh, Pose, Vector
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.placement.solids import MovingBodies, Solid, diagonal, half_sizes
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.placement import shapes_of
+from urdfkit.record import record
+
+_MOST = 80
+"""Largest number of moving bodies of a robot that is checked."""
+
+_DEEP = 0.1
+"""Smallest depth of the centre of a link in another one, as a part of half its smallest size."""
+
+_THIN = 0.25
+"""Smallest ratio of the smallest sizes of both links; rotors and other small parts are inside of housings."""
+
+_SMALL = 0.02
+"""Largest diagonal of a placeholder [m]."""
+
+_SURFACE = 1e-4
+"""Distance by which a shape that is inside of another one may stick out [m]."""
+
+_DIGITS = 4
+"""Decimal places of coordinates of shapes at one place."""
+
+
+@record(eq=False)
+class Overlap:
+    """A link in another one.
+
+    Attributes:
+        joint: the joint that places it.
+        place: the element with the wrong offset.
+        message: what is wrong.
+    """
+
+    joint: Joint
+    place: Element
+    message: str
+
+
+def overlaps(model: Model) -> Iterator[Overlap]:
+    """Yield the links in other links; robots whose links have meshes or many shapes only where they have not."""
+    bodies = MovingBodies(model)
+    if len(bodies.carriers) > _MOST:
+        return
+    for search in (_hidden, _coincident, _crossing):
+        found = list(search(model, bodies))
+        yield from found
+        if found:
+            return
+
+
+def _hidden(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
+    """Yield the joints whose loads, with everything that they carry, are completely inside of their parents."""
+    for body, (carrier, joint) in bodies.carriers.items():
+        around = bodies.solids.get(carrier, ())
+        below = bodies.below(body) if around else []
+        links = [link for name in below for link in bodies.links.get(name, ())]
+        if any(isinstance(shape.geometry, Mesh) for link in links for shape in shapes_of(link)):
+            continue
+        solids = [solid for name in below for solid in bodies.solids.get(name, ()) if diagonal(solid.shape) > _SMALL]
+        if solids and all(
+            any(other.depth(point) >= -_SURFACE for other in around)
+            for solid in solids
+            for point in solid.points((-1, 1))
+        ):
+            message = f"link `{joint.child}` of joint `{joint.name}`, with all parts that it carries, is inside of the "
+            yield Overlap(joint, _origin(joint), f"{message}shape of `{around[0].link.name}`")
+
+
+def _coincident(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
+    """Yield a joint whose link has the same shape at the same place as a link that it is not attached to."""
+    first: dict[object, tuple[str, Solid]] = {}
+    found: set[object] = set()
+    for body, solids in bodies.solids.items():
+        if body not in bodies.carriers or len(solids) != 1 or diagonal(solids[0].shape) <= _SMALL:
+            continue
+        solid = solids[0]
+        numbers = (*solid.at.translation, *(part for row in solid.at.rotation for part in row))
+        key = (solid.shape, tuple(round(part, _DIGITS) + 0.0 for part in numbers))
+        other, twin = first.setdefault(key, (body, solid))
+        carrier = bodies.carriers[body][0]
+        if other == body or carrier in (other, bodies.carriers[other][0]) or bodies.carriers[other][0] == body:
+            continue  # Counterparts on one parent are compared by S909.
+        wrong, right = (body, twin) if not _is_misplaced(other, twin.at.translation) else (other, solid)
+        joint = next((each for _, each in bodies.above(wrong) if any(each.origin.xyz)), bodies.carriers[wrong][1])
+        message = f"link `{solid.link.name if wrong == body else twin.link.name}` is at the same place as link "
+        place = _origin(joint)
+        if place.origin.position not in found:
+            found.add(place.origin.position)
+            yield Overlap(joint, place, f"{message}`{right.link.name}`")
+
+
+def _is_misplaced(name: str, place: Vector) -> bool:
+    """Return whether a link is at another end or side of the root link than its name states."""
+    signs = {"rear": (0, -1.0), "back": (0, -1.0), "front": (0, 1.0), "left": (1, 1.0), "right": (1, -1.0)}
+    words = [signs[word] for word in re.split(r"[^a-z]+", name.lower()) if word in signs]
+    return any(place[axis] * sign < 0.0 for axis, sign in words)
+
+
+def _crossing(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
+    """Yield a joint or shape that places a link in one that carries it with at least two joints between them."""
+    found: set[object] = set()
+    for body in bodies.carriers:
+        inner = bodies.solids.get(body, ())
+        joints: list[Joint] = []
+        for carrier, joint in bodies.above(body):
+            joints.append(joint)
+            outer = bodies.solids.get(carrier, ())
+            if not all(map(_includes_zero, joints)):
+                break
+            if len(joints) < 2 or len(inner) != 1 or len(outer) != 1 or all(one.type == "prismatic" for one in joints):
+                continue
+            if not _is_inside(inner[0], inner[0].at.translation, outer[0]):
+                continue
+            joint, place = _cause(inner[0], outer[0], joints, model)
+            position = place.origin.position
+            if position not in found:
+                found.add(position)
+                message = f"link `{inner[0].link.name}` is in link `{outer[0].link.name}`, which carries it over "
+                yield Overlap(joint, place, f"{message}{len(joints)} joints")
+            break
+
+
+def _is_inside(inner: Solid, centre: Vector, outer: Solid) -> bool:
+    is_thin = inner.thickness < _THIN * outer.thickness
+    return not is_thin and diagonal(inner.shape) > _SMALL and outer.depth(centre) > _DEEP * outer.thickness
+
+
+def _includes_zero(joint: Joint) -> bool:
+    low, high = (joint.limit.lower, joint.limit.upper) if joint.limit is not None else (None, None)
+    return low is None or high is None or low <= 0.0 <= high
+
+
+def _cause(inner: Solid, outer: Solid, joints: list[Joint], model: Model) -> tuple[Joint, Element]:
+    """Return the joint, and the origin of the shape whose sign is wrong or of the joint farthest from its parent."""
+    frame, offset = model.frames[inner.link.name], inner.pose.xyz
+    axis = max(range(3), key=lambda k: abs(offset[k]))
+    x, y, z = (-part if k == axis else part for k, part in enumerate(offset))
+    shape = next(iter(inner.link.collisions or inner.link.visuals))
+    origin = shape.element.find("origin")
+    if origin is not None and any(offset):
+        mirrored = frame.moved(Pose((x, y, z), inner.pose.rpy)).translation
+        if not _is_inside(inner, mirrored, outer) and abs(offset[axis]) > half_sizes(inner.shape)[axis]:
+            return joints[0], (inner.link.visuals[0].element.find("origin") if inner.link.visuals else None) or origin
+    turning = [joint for joint in reversed(joints) if joint.type != "prismatic"]  # A telescope is inside of itself.
+    joint = max(turning, key=lambda each: _distance_from_surface(each, model))
+    return joint, _origin(joint)
+
+
+def _distance_from_surface(joint: Joint, model: Model) -> float:
+    """Return the distance of a joint from the surface of the box around its parent link [m]."""
+    from urdfkit.lint.facts.placement.joint_places import depth
+
+    parent = model.extents.get(joint.parent or "")
+    return abs(depth(joint.origin.xyz, parent)) if parent is not None else 0.0
+
+
+def _origin(joint: Joint) -> Element:
+    return joint.element.find("origin") or joint.element

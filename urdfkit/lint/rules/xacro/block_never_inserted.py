@@ -1,0 +1,56 @@
+"""X128 block-never-inserted."""
+
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
+
+
+class BlockNeverInserted(SourceRule):
+    """A macro does not insert a block that its calls must pass.
+
+    ## What it does
+    Checks for ``<xacro:macro>`` with a parameter such as ``*origin`` that no ``<xacro:insert_block>`` of its body
+    names. No file of two hundred public robots has such a macro.
+
+    ## Why is this bad?
+    xacro drops the block of each call without a message. Usually an origin is lost, and the part of the macro is placed
+    at the origin of its parent link.
+
+    ## Example
+    ```diff
+     <robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
+       <link name="base"/>
+       <xacro:macro name="frame" params="name *origin">
+         <link name="${name}"/>
+         <joint name="${name}_joint" type="fixed">
+    -      <parent link="base"/><child link="${name}"/>
+    +      <parent link="base"/><child link="${name}"/><xacro:insert_block name="origin"/>
+         </joint>
+       </xacro:macro>
+       <xacro:frame name="top"><origin xyz="0 0 0.4"/></xacro:frame>
+     </robot>
+    ```
+    """
+
+    code = "X128"
+    name = "block-never-inserted"
+    severity = "warning"
+
+    def check(self, document: Document, model: Model) -> Findings:
+        """Yield a finding for each block parameter without a use."""
+        for macro in document.walk() if "*" in document.source.text else ():
+            params = macro.attributes.get("params") if macro.name.rpartition(":")[2] == "macro" else None
+            blocks = [word for word in params.value.split() if word.startswith("*")] if params is not None else []
+            if not blocks:
+                continue
+            inserted = {
+                tag.attributes["name"].value
+                for tag in macro.walk()
+                if tag.name.rpartition(":")[2] == "insert_block" and "name" in tag.attributes
+            }
+            name = macro.attributes["name"].value if "name" in macro.attributes else ""
+            for block in (word.partition(":=")[0].lstrip("*") for word in blocks):
+                if block and block not in inserted and not any("$" in one for one in inserted):
+                    message = f"macro `{name}` never inserts its block `{block}`"
+                    help = f'add <xacro:insert_block name="{block}"/>'
+                    position = document.source.position(macro.start)
+                    yield self.at(model, position, message, attribute="params", help=help)
