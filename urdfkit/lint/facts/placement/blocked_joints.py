@@ -36,7 +36,7 @@ _GROUND = 0.02
 
 
 def blocked_joints(model: Model) -> Iterator[tuple[Joint, str]]:
-    """Yield the joints with the name of what they move their load into: a link, or empty for the ground."""
+    """Yield the joints with the name of the link that their load enters; empty for the ground."""
     bodies = MovingBodies(model)
     if len(bodies.carriers) > _MOST:
         return
@@ -113,7 +113,7 @@ def _rotation(axis: Vector, angle: float) -> Rotation:
 def _met(
     points: list[Vector], rest: list[Solid], ground: float
 ) -> Callable[[Callable[[Vector, float], Vector], float], str | None]:
-    """Return a function: what the points are in at a position of a joint but not at zero; None if nothing."""
+    """Return a function: the link that the points enter at a position of a joint; empty for the ground, else None."""
     reaches = [(solid, diagonal(solid.shape) / 2.0, solid.at.translation) for solid in rest]
 
     def around(point: Vector) -> str | None:

@@ -38,7 +38,7 @@ class Overlap:
     Attributes:
         joint: the joint that places it.
         place: the element with the wrong offset.
-        message: what is wrong.
+        message: the message of the finding.
     """
 
     joint: Joint
@@ -61,7 +61,7 @@ def overlaps(model: Model) -> Iterator[Overlap]:
 def _hidden(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
     """Yield the joints whose loads, with everything that they carry, are completely inside of their parents."""
     for body, (carrier, joint) in bodies.carriers.items():
-        around = bodies.solids.get(carrier, ())
+        around = bodies.solids.get(carrier, [])
         below = bodies.below(body) if around else []
         links = [link for name in below for link in bodies.links.get(name, ())]
         if any(isinstance(shape.geometry, Mesh) for link in links for shape in shapes_of(link)):
@@ -107,7 +107,7 @@ def _is_misplaced(name: str, place: Vector) -> bool:
 
 
 def _crossing(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
-    """Yield a joint or shape that places a link in one that carries it with at least two joints between them."""
+    """Yield a joint or shape that places a link in another link that carries it over at least two joints."""
     found: set[object] = set()
     for body in bodies.carriers:
         inner = bodies.solids.get(body, ())
@@ -145,12 +145,11 @@ def _cause(inner: Solid, outer: Solid, joints: list[Joint], model: Model) -> tup
     frame, offset = model.frames[inner.link.name], inner.pose.xyz
     axis = max(range(3), key=lambda k: abs(offset[k]))
     x, y, z = (-part if k == axis else part for k, part in enumerate(offset))
-    shape = next(iter(inner.link.collisions or inner.link.visuals))
-    origin = shape.element.find("origin")
+    origin = shapes_of(inner.link)[0].element.find("origin")
     if origin is not None and any(offset):
         mirrored = frame.moved(Pose((x, y, z), inner.pose.rpy)).translation
         if not _is_inside(inner, mirrored, outer) and abs(offset[axis]) > half_sizes(inner.shape)[axis]:
-            return joints[0], (inner.link.visuals[0].element.find("origin") if inner.link.visuals else None) or origin
+            return joints[0], origin
     turning = [joint for joint in reversed(joints) if joint.type != "prismatic"]  # A telescope is inside of itself.
     joint = max(turning, key=lambda each: _distance_from_surface(each, model))
     return joint, _origin(joint)

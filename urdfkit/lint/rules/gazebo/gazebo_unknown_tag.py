@@ -34,6 +34,9 @@ KEYS = (
 )
 """The elements that parser_urdf.cc of sdformat (12.3) reads in ``<gazebo reference>``."""
 
+_OF_JOINTS = ("preserveFixedJoint", "disableFixedJointLumping")
+"""The elements that parser_urdf.cc of sdformat searches for in the blocks of joints only."""
+
 _ALIASES = {"mu": "mu1", "mul": "mu1"}
 _SDF = frozenset(
     (
@@ -73,6 +76,7 @@ class GazeboUnknownTag(RobotRule):
     ## What it does
     Compares the elements of the block with the names that sdformat converts to friction, stiffness, colour and other
     properties, and suggests the nearest one. Names that resemble none of them are accepted, because they may be SDF.
+    ``preserveFixedJoint`` in the block of a link is reported, because only joints have this property.
     The content of a ``<sensor>`` is SDF, so every element that SDF does not define there is reported.
 
     ## Why is this bad?
@@ -106,6 +110,12 @@ class GazeboUnknownTag(RobotRule):
 
         for block in model.robot.gazebo:
             for child in block.element.children if block.reference else ():
+                if child.tag in _OF_JOINTS and block.reference in model.robot.link_by_name:
+                    if block.reference not in model.robot.joint_by_name:
+                        message = f"<{child.tag}> has no effect in the block of link `{block.reference}`"
+                        help = "write it in a block of the fixed joint"
+                        yield self.at(model, child, message, link=block.reference, help=help)
+                    continue
                 if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
                     continue
                 suggestion = _ALIASES.get(child.tag) or nearest(child.tag, KEYS, cutoff=0.7)

@@ -57,10 +57,10 @@ class OriginTooFar(RobotRule):
     two lengths: the size of the largest link, and four times the size of the larger link of the joint.
 
     A moving joint outside the bounding box of its parent link is reported if every other moving joint is inside or at
-    the box of its parent link, or if it is the only one that would be at its parent link with another sign of a
-    coordinate. The joints of one macro count as one. Joints of a root link without shapes are not checked, because they
-    place the robot in the world. If no size is known, because the meshes are missing, the distance is compared with the
-    distances of all other joints.
+    the box of its parent link, or if only this joint would be at its parent link with another sign of a coordinate. The
+    joints of one macro count as one. Joints of a root link without shapes are not checked, because they place the robot
+    in the world. If no size is known, because the meshes are missing, the distance is compared with the distances of
+    all other joints.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,

@@ -4,6 +4,7 @@ import re
 
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.placement.commented_directions import contradicted_comment
 from urdfkit.lint.facts.placement.joint_axes import axis_in_root
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -30,14 +31,18 @@ _ALONG, _ACROSS = 0.9, 0.2
 
 
 class JointContradictsName(RobotRule):
-    """The motion of a joint contradicts its name.
+    """The motion of a joint contradicts its name, or the comment before it.
 
     ## What it does
     Compares the type and the axis of joints with the words in their names, with all joints at position zero. A
     ``slide``, ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint moves along a line; a sliding ``lift``,
-    ``elevator`` or ``fork`` moves up and down, and a ``lift`` does not rotate about a vertical axis. ``pan``, ``yaw``,
-    ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt`` and ``pitch`` joints and knees do not.
-    Hands, arms, wheels and rotors are not checked, because they may have any direction at zero.
+    ``elevator`` or ``fork`` moves up and down, and up if all its positions are positive; a ``lift`` does not rotate
+    about a vertical axis. ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``
+    and ``pitch`` joints and knees do not. Hands, arms, wheels and rotors are not checked, because they may have any
+    direction at zero.
+
+    A comment directly before the joint, or before its macro call, may state the direction of positive positions, such
+    as ``positive is up``. A joint that moves the parts that it carries in the opposite direction is reported.
 
     ## Why is this bad?
     The part moves in an unexpected direction: the camera rolls instead of looking to the side, or the lift swings
@@ -71,9 +76,14 @@ class JointContradictsName(RobotRule):
         if model.is_incomplete:
             return
         for joint in model.robot.joints:
-            if not joint.is_movable or _OTHER.search(joint.name) or joint.child not in model.robot.link_by_name:
+            if not joint.is_movable or joint.child not in model.robot.link_by_name:
                 continue
-            fault = _fault(joint, model)
+            fault = None if _OTHER.search(joint.name) else _fault(joint, model)
+            if fault is None and (words := contradicted_comment(joint, model)):
+                element = joint.element.find("axis") or joint.element
+                message = f"joint `{joint.name}` moves in the opposite direction of its comment, `{words}`"
+                help = "check the signs of <axis> and of the rpy of <origin>, or correct the comment"
+                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
             if fault is not None:
                 message, element, attribute = fault
                 help = "check <axis> and the rpy of <origin>, or correct the name"
@@ -102,4 +112,8 @@ def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:
         return f"joint `{joint.name}` rotates about a vertical axis, so it cannot lift", element, "xyz"
     if lifts is not None and joint.type == "prismatic" and is_horizontal:
         return f"joint `{joint.name}` slides horizontally, so it cannot lift", element, "xyz"
+    limit = joint.limit
+    is_upward = limit is not None and limit.lower is not None and limit.lower >= 0.0 and (limit.upper or 0.0) > 0.0
+    if lifts is not None and joint.type == "prismatic" and axis[2] < -_ALONG and is_upward:
+        return f"joint `{joint.name}` slides down at positive positions, so it cannot lift", element, "xyz"
     return None
