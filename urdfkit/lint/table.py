@@ -169,6 +169,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),
     ("plugin sensor", "gazebo.sensor_frame_undefined", "SensorFrameUndefined"),
+    ("sensor", "gazebo.sensor_frame_elsewhere", "SensorFrameElsewhere"),
     ("plugin", "gazebo.plugin_param_unknown", "PluginParamUnknown"),
     ("plugin", "gazebo.plugin_param_wrong_generation", "PluginParamWrongGeneration"),
     ("plugin", "gazebo.plugin_parameter_missing", "PluginParameterMissing"),

@@ -22,7 +22,7 @@ _PART = 0.05
 """Smallest part of the size of the body that this depth is."""
 
 _BACK = -0.7
-"""Cosine of the smallest angle between the view of a camera and the direction of the tool that is backwards."""
+"""Cosine of the smallest angle to the direction of the tool or the fingers that is backwards."""
 
 
 def tools_inside(model: Model) -> Iterator[tuple[Joint, float]]:
@@ -41,6 +41,20 @@ def tools_inside(model: Model) -> Iterator[tuple[Joint, float]]:
         depth, size = max(depths, default=(0.0, 0.0))
         if depth > max(_DEPTH, _PART * size):
             yield joint, depth
+
+
+def tools_behind(model: Model) -> Iterator[Joint]:
+    """Yield the fixed joints of frames of tools that are on the other side of the body than the fingers."""
+    for joint in model.robot.joints:
+        frame, fingers = model.robot.link_by_name.get(joint.child or ""), list(_fingers(joint.parent or "", model))
+        if joint.type != "fixed" or frame is None or shapes_of(frame) or not fingers:
+            continue
+        x, y, z = (sum(finger.origin.xyz[k] for finger in fingers) / len(fingers) for k in range(3))
+        direction, offset = unit((x, y, z)), unit(joint.origin.xyz)
+        if direction is None or offset is None or not _TOOL.search(f"{joint.name} {frame.name}"):
+            continue
+        if sum(a * b for a, b in zip(direction, offset, strict=True)) < _BACK:
+            yield joint
 
 
 def cameras_looking_back(model: Model) -> Iterator[Joint]:

@@ -18,7 +18,7 @@ class SensorRangeInvalid(RobotRule):
     - a minimum above its maximum: ``<min>`` and ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and
       ``<far>``, ``<pointCloudCutoff>`` and ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``
     - values that are not numbers, negative rates and standard deviations, and angles of more than a full turn
-    - unknown types of ``<noise>``
+    - lidars with a minimum range of 2 m or more, and unknown types of ``<noise>``
 
     ## Why is this bad?
     The sensor measures nothing, and ``urdfkit sim`` omits it.
@@ -65,6 +65,7 @@ class SensorRangeInvalid(RobotRule):
                 for child in sensor.element.children:
                     if child.tag in ("ray", "lidar"):
                         defects += senseless_scan(child)
+                        defects += _blind(child)
                     elif child.tag == "camera":
                         defects += senseless_camera(child, is_wide=sensor.type in WIDE)
                 for plugin in sensor.plugins:
@@ -73,6 +74,19 @@ class SensorRangeInvalid(RobotRule):
                 for element, message in defects:
                     if not any(model.is_unresolved(each) for each in element.walk()):
                         yield self.at(model, element, message, link=block.reference)
+
+
+_BLIND = 2.0
+"""Minimum range of a lidar that misses all obstacles near the robot [m]; scanners for robots have up to 1 m."""
+
+
+def _blind(lidar: Element) -> Iterator[tuple[Element, str]]:
+    """Yield the minimum of the range of a lidar that sees nothing near the robot."""
+    limits = lidar.find("range")
+    low, high = (numbers(each.text) if limits and (each := limits.find(tag)) else None for tag in ("min", "max"))
+    if limits is not None and low and high and _BLIND <= low[0] < high[0]:
+        element = limits.find("min")
+        yield element or limits, f"the lidar sees nothing that is nearer than {low[0]:g} m"
 
 
 _DEVIATIONS = ("stddev", "bias_stddev", "dynamic_bias_stddev", "gaussianNoise", "gaussian_noise")

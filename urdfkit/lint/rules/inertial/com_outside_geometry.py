@@ -3,7 +3,7 @@
 from math import dist
 
 from urdfkit.description.urdf.robot import Link
-from urdfkit.lint.model.placement import Extent
+from urdfkit.lint.model.placement import Extent, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 0.1
@@ -31,7 +31,8 @@ class ComOutsideGeometry(RobotRule):
     ## What it does
     Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link. A
     centre of mass inside the box is also reported if the link has a single shape, the inertia is that of this shape
-    about its own centre, and the centre of mass is elsewhere.
+    about its own centre, and the centre of mass is elsewhere. A centre of mass that is the centre of one of several
+    shapes except for the sign of a coordinate is reported too.
 
     Collision shapes often cover only a part of the body. Therefore, a link without visuals is reported only if the
     distance exceeds the diagonal of the box. Links with an unreadable mesh are not checked.
@@ -76,6 +77,7 @@ class ComOutsideGeometry(RobotRule):
                 continue
             distance = extent.outside(inertial.origin.xyz)
             yield from self._off_centre(model, link, extent)
+            yield from self._mirrored(model, link)
             if distance > max(
                 (TOLERANCE if link.visuals else TOLERANCE_WITHOUT_VISUALS) * extent.diagonal, MIN_TOLERANCE
             ):
@@ -90,6 +92,24 @@ class ComOutsideGeometry(RobotRule):
                     if any(inertial.origin.xyz)
                     else "copy the <origin> of the shape to <inertial>",
                 )
+
+    def _mirrored(self, model: Model, link: Link) -> Findings:
+        """Yield a finding for a centre of mass that is that of a shape with the other sign of one coordinate."""
+        inertial, shapes = link.inertial, shapes_of(link)
+        if inertial is None or len({shape.origin.xyz for shape in shapes}) < 2:
+            return  # The other two checks compare it with a single shape.
+        centre = inertial.origin.xyz
+        same = max(map(abs, centre)) * SAME
+        for shape in shapes:
+            pairs = list(zip(centre, shape.origin.xyz, strict=True))
+            opposite = [k for k, (a, b) in enumerate(pairs) if abs(a) > MIN_TOLERANCE and abs(a + b) <= same]
+            if len(opposite) == 1 and sum(abs(a - b) <= same for a, b in pairs) == 2:
+                origin, k = inertial.element.find("origin"), opposite[0]
+                message = f"centre of mass of link `{link.name}` has {'xyz'[k]} = {centre[k]:g} m, "
+                message += f"but the centre of its shape {-centre[k]:g} m"
+                help = "check the sign of the <origin> of <inertial>"
+                yield self.at(model, origin or inertial.element, message, attribute="xyz", link=link.name, help=help)
+                return
 
     def _off_centre(self, model: Model, link: Link, extent: Extent) -> Findings:
         """Yield a finding for a centre of mass away from the centre of the shape to which the inertia belongs."""

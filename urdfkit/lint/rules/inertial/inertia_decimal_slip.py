@@ -11,6 +11,8 @@ AGREEMENT = 1.7
 SCALED_AGREEMENT = 1.5
 """Factor within which a moment agrees after scaling by a power of ten."""
 
+EXACT = 1.02
+"""Factor within which all three moments agree with those of a shape after scaling by ten."""
 
 _MIRRORED = 0.02
 """Largest difference of the tensors of mirrored parts, relative to the largest entry."""
@@ -21,7 +23,8 @@ class InertiaDecimalSlip(RobotRule):
 
     ## What it does
     Compares the diagonal of the tensor with that of the link's shapes at uniform density. If two moments agree and the
-    third is off by a factor of 10, 100 or 1000, its decimal point is wrong. A tensor with products of inertia is
+    third is off by a factor of 10, 100 or 1000, its decimal point is wrong. If all three are off by exactly 10, that of
+    the mass may be wrong. A tensor with products of inertia is
     accepted if another link has the same tensor except for signs, because a CAD program computed both for mirrored
     parts.
 
@@ -69,6 +72,8 @@ class InertiaDecimalSlip(RobotRule):
                 continue
             ratios = (written[0] / values[0], written[1] / values[3], written[2] / values[5])
             outliers = [axis for axis, ratio in enumerate(ratios) if not 1.0 / AGREEMENT < ratio < AGREEMENT]
+            if len(outliers) == 3:
+                yield from self._mass(model, link, ratios)
             if len(outliers) != 1:
                 continue
             if _has_mirrored_part(model, link):
@@ -91,6 +96,18 @@ class InertiaDecimalSlip(RobotRule):
                     help=f"shape and mass give {moment / ratio:.3g} kg·m²; did you mean {corrected}?",
                     fix=new_value(model, inertia.element, name, corrected, "unsafe", f"Replace with {corrected}"),
                 )
+
+    def _mass(self, model: Model, link: Link, ratios: tuple[float, ...]) -> Findings:
+        """Yield a finding for a mass with which all moments are off by ten, but would be exactly those of the shape."""
+        inertial = link.inertial
+        low, high = min(ratios), max(ratios)
+        power = next((k for k in (-1, 1) if low * 10.0**k > 1.0 / EXACT and high * 10.0**k < EXACT), None)
+        if inertial is None or power is None:
+            return
+        place = inertial.element.find("mass") or inertial.element
+        message = f"link `{link.name}`: mass {inertial.mass:g} kg or all moments of inertia are off by a factor of 10"
+        help = f"the moments are those of the shape with {(inertial.mass or 0.0) / 10.0**power:g} kg"
+        yield self.at(model, place, message, attribute="value", link=link.name, help=help)
 
 
 def _has_mirrored_part(model: Model, link: Link) -> bool:

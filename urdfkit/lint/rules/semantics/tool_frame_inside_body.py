@@ -8,7 +8,8 @@ class ToolFrameInsideBody(RobotRule):
 
     ## What it does
     Checks frames without shapes that are fixed to a link with fingers and have ``tcp``, ``tool``, ``grasp``, ``tip`` or
-    ``end_effector`` in their names. Reports a frame that is inside of a box or cylinder of that link. Also reports an
+    ``end_effector`` in their names. Reports a frame that is inside of a box or cylinder of that link, or on the side
+    that is opposite to the fingers. Also reports an
     optical frame of a camera that is fixed to the last link of an arm, if its z axis points away from the fingers or
     the tool.
 
@@ -54,12 +55,17 @@ class ToolFrameInsideBody(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each frame and camera, at the origin of its joint."""
-        from urdfkit.lint.facts.placement.tools import cameras_looking_back, tools_inside
+        from urdfkit.lint.facts.placement.tools import cameras_looking_back, tools_behind, tools_inside
 
         if model.is_damaged:
             return
         for joint, depth in tools_inside(model):
             message = f"frame `{joint.child}` is {depth:.3g} m inside of the shape of link `{joint.parent}`"
+            place = joint.element.find("origin") or joint.element
+            help = "move it to the tips of the fingers"
+            yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
+        for joint in tools_behind(model):
+            message = f"frame `{joint.child}` is behind link `{joint.parent}`, whose fingers are on the other side"
             place = joint.element.find("origin") or joint.element
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)

