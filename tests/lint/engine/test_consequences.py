@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Span
 from urdfkit.lint import lint
 from urdfkit.lint.engine.consequences import without_consequences
@@ -31,6 +32,18 @@ CASES = {
     "other name": (finding("S907", "wheels", joint="a"), finding("S909", "joints `a`", names=("c", "d")), False),
     "call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("c",),)), True),
     "other call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("d",),)), False),
+    "inner call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("d", "c"),)), True),
+    "outer call": (finding("T206", "link", chains=(("d", "c"),)), finding("T207", "joint", 9, chains=(("c",),)), False),
+    "meant": (
+        finding("K960", "unknown controller `a`", suggestion=Suggestion("arm", "a")),
+        finding("M112", "no launch file spawns controller `arm`", 9, kind="unspawned", names=("arm",)),
+        True,
+    ),
+    "other meant": (
+        finding("K960", "unknown controller `a`", suggestion=Suggestion("arm", "a")),
+        finding("M112", "no launch file spawns controller `leg`", 9, kind="unspawned", names=("leg",)),
+        False,
+    ),
     "no call": (finding("T206", "duplicate link `a`"), finding("T207", "duplicate joint `b`", 9), False),
     "robot": (finding("T207", "duplicate joint `a`"), finding("K959", "joint `b` does not exist", 9), True),
     "sensor": (finding("Z817", "a"), finding("K969", "no Gazebo topic `b`", 9, kind="topic"), True),

@@ -152,8 +152,8 @@ class Settings:
         return found
 
     def _missing(self, path: str) -> DescriptionError:
-        hint = did_you_mean(path, self.children)
-        return DescriptionError(f"`{self.name}` has no `{path}`{hint or ', which it needs'}", position=self.place)
+        hint = did_you_mean(path, self.children) or ", which it needs"
+        return DescriptionError(f"`{self.name}` has no `{path}`" + hint, position=self.place)
 
 
 def _number(found: Settings, path: str) -> float:

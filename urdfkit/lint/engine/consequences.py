@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
 
-    Relation = Literal["line", "name", "call", "robot"]
+    Relation = Literal["line", "name", "meant", "call", "robot"]
     Pattern = tuple[str, str]
     """Code of a rule, and `Finding.kind`; an empty kind matches all findings of the rule."""
 
@@ -31,6 +31,9 @@ _PLACES = (
 )
 """Codes of findings on places, sizes and directions, which explain why links are in each other."""
 
+_OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
+"""Findings on a robot whose package.xml names the build system of the other version of ROS."""
+
 _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("E010", ""), "line", ("X124", "")),
     (("E014", "attribute"), "line", ("E009", "")),
@@ -43,6 +46,9 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K963", ""), "line", ("K956", "controller type")),
     (("K967", ""), "line", ("K956", "controller type")),
     (("K960", ""), "line", ("M112", "unspawned")),
+    (("K960", ""), "meant", ("M112", "unspawned")),
+    (("K962", ""), "meant", ("K971", "incomplete")),
+    (("K980", "remapping"), "meant", ("K980", "unread")),
     (("K967", ""), "line", ("K956", "")),
     (("K968", ""), "line", ("K980", "")),
     (("K969", ""), "line", ("K977", "")),
@@ -87,6 +93,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("J421", ""), "name", ("K970", "")),
     (("J421", ""), "name", ("S909", "")),
     (("J422", ""), "name", ("J423", "")),
+    (("J422", ""), "name", ("J424", "")),
     (("J423", ""), "name", ("S910", "")),
     (("J427", ""), "name", ("J421", "")),
     (("J427", ""), "name", ("S915", "")),
@@ -98,10 +105,14 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K971", "twice"), "name", ("M112", "")),
     (("K975", ""), "name", ("K962", "")),
     (("K975", ""), "name", ("M112", "")),
+    (("K975", ""), "name", ("K976", "")),
+    (("K968", ""), "name", ("K980", "")),
+    (("Z826", ""), "name", ("K977", "")),
     (("K977", ""), "name", ("K980", "")),
     (("K983", "transform"), "name", ("L124", "")),
     (("L103", ""), "name", ("K968", "option")),
     (("L104", ""), "name", ("L113", "")),
+    (("L104", ""), "meant", ("L126", "")),
     (("L104", "name"), "line", ("K980", "")),
     (("L108", ""), "line", ("K960", "")),
     (("L108", ""), "line", ("K968", "")),
@@ -129,7 +140,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K965", ""), "robot", ("K978", "")),
     (("K968", "manager"), "robot", ("K980", "namespace")),
     (("K968", "manager"), "robot", ("L117", "namespace")),
-    (("K972", "build tool"), "robot", ("K967", "")),
+    *((("K972", "build tool"), "robot", (code, kind)) for code, kind in _OF_OTHER_ROS),
+    *((("K972", "build type"), "robot", (code, kind)) for code, kind in _OF_OTHER_ROS),
     (("K973", "find_package"), "robot", ("K972", "build tool")),
     (("K973", "find_package"), "robot", ("K972", "build type")),
     (("K973", "setup.py"), "robot", ("K973", "missing")),
@@ -141,9 +153,12 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T204", ""), "robot", ("M102", "reason")),
     (("T204", ""), "robot", ("M105", "")),
     (("T204", ""), "robot", ("M110", "")),
+    (("S908", ""), "robot", ("K968", "height")),
     (("S911", ""), "robot", ("K968", "height")),
+    (("T206", ""), "robot", ("C721", "")),
     (("T206", ""), "robot", ("M104", "link")),
     (("T206", ""), "robot", ("M105", "")),
+    (("T206", ""), "robot", ("S910", "")),
     (("T206", ""), "robot", ("Z801", "reference")),
     (("T206", ""), "robot", ("Z802", "undefined")),
     (("T207", ""), "robot", ("C701", "undefined")),
@@ -160,8 +175,9 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
 )
 """Cause, relation and consequence.
 
-The relation is what both have in common: the line, the link, the joint or one of `Finding.names`, the macro call, or
-only the robot.
+The relation is what both have in common: the line, the link, the joint or one of `Finding.names`, the macro call or a
+call inside of it, or only the robot; ``meant`` is the name that the cause suggests and that the consequence misses, or
+that the cause has and the consequence suggests.
 """
 
 _WITH_FIX = (("E014", "E009"), ("I503", "I507"))
@@ -184,7 +200,8 @@ def without_consequences(findings: list[Finding]) -> list[Finding]:
         for effect in _matching(findings, other, other_kind):
             if id(effect) in dropped or (effect.fix is not None and (code, other) in _WITH_FIX):
                 continue
-            if not shared.isdisjoint(_common(effect, relation)) and not any(effect is cause for cause in causes):
+            common = _common(effect, relation, is_effect=True)
+            if not shared.isdisjoint(common) and not any(effect is cause for cause in causes):
                 dropped.add(id(effect))
     return [finding for finding in findings if id(finding) not in dropped]
 
@@ -193,12 +210,17 @@ def _matching(findings: list[Finding], code: str, kind: str) -> Iterator[Finding
     return (finding for finding in findings if finding.code == code and kind in ("", finding.kind))
 
 
-def _common(finding: Finding, relation: Relation) -> Collection[object]:
+def _common(finding: Finding, relation: Relation, *, is_effect: bool = False) -> Collection[object]:
     """Return the common part of a cause and its consequence."""
     if relation == "line":
         return ((finding.file, finding.line),)
     if relation == "call":
-        return finding.chains
+        chains = finding.chains
+        return [chain[first:] for chain in chains for first in range(len(chain))] if is_effect else chains
+    if relation == "meant":
+        written = finding.suggestion.written if finding.suggestion is not None else ""
+        names = (finding.joint, *finding.names) if is_effect else (written,)
+        return {name for name in (*names, finding.meant) if name}
     if relation == "robot":
         return ("robot",)
     return {name for name in (finding.link, finding.joint, *finding.names) if name}

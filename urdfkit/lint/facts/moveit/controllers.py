@@ -61,7 +61,8 @@ def contradictions(
     names = {name for one in controllers for name in _joints(one)}
     joints = entry.settings.find("joints")
     is_complete = names <= model.robot.joint_by_name.keys()  # a joint that no robot has is reported where it is listed
-    for node in joints.items if joints is not None and names and is_complete else ():
+    is_unique = all(len(set(each)) == len(each) for one in controllers for each in _listed(one))  # reported there
+    for node in joints.items if joints is not None and names and is_complete and is_unique else ():
         if node.text in model.robot.joint_by_name and node.text not in names:
             yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and rejects trajectories"
 
@@ -94,8 +95,8 @@ def meant_controller(
 
 def unspawned(
     names: set[str], controllers: dict[str, list[ControllerSettings]], model: Model
-) -> Iterator[tuple[Span, str]]:
-    """Yield the last spawned controller, and a message, for each MoveIt controller that no launch file starts.
+) -> Iterator[tuple[Span, str, str]]:
+    """Yield the last spawned controller, a message and the name, for each MoveIt controller that no launch file starts.
 
     Nothing is yielded if some arguments of a spawner are computed. A controller whose joints a started controller has
     too is an alternative to that one.
@@ -119,9 +120,12 @@ def unspawned(
         is_named = any(re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", each.text) for each in files)
         if joints and not joints & moved and not is_named:
             message = f"no launch file spawns controller `{name}`, which MoveIt uses"
-            yield file.span(last.start, last.end), message
+            yield file.span(last.start, last.end), message, name
 
 
 def _joints(one: ControllerSettings) -> set[str]:
-    listed = [one.group.find(key) for key in ("joints", "joint")]
-    return {name for node in listed if node is not None for name in node.texts()}
+    return {name for each in _listed(one) for name in each}
+
+
+def _listed(one: ControllerSettings) -> list[list[str]]:
+    return [list(node.texts()) for key in ("joints", "joint") if (node := one.group.find(key)) is not None]

@@ -7,7 +7,7 @@ below switch a function off in many nodes and are accepted here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 
 from urdfkit.description.xml.source import Source
@@ -140,10 +140,9 @@ def out_of_order(source: Source) -> Iterator[tuple[Node, str]]:
     """
     for node in (node for node in nodes(source) if len(node.entries) > 1):
         numbers = {key.text: number_of(value) for key, value in node.entries if value.kind == "text"}
-        for low, high in ORDERED:
-            least, most, value = numbers.get(low), numbers.get(high), node.find(low)
-            if value is not None and least is not None and most is not None and least > most:
-                yield value, f"`{low}` is {least:g}, more than `{high}`, {most:g}"
+        for low, high in _reversed(numbers):
+            if (value := node.find(low)) is not None:
+                yield value, f"`{low}` is {numbers[low]:g}, more than `{high}`, {numbers[high]:g}"
         for low, high in _SIMILAR:
             least, most, value = numbers.get(low), numbers.get(high), node.find(low)
             if value is not None and least is not None and most is not None and 0.0 < _MAX_RATIO * most < least:
@@ -159,3 +158,20 @@ def out_of_order(source: Source) -> Iterator[tuple[Node, str]]:
             value = node.find(other)
             if value is not None and numbers.get(one) is not None and numbers.get(one) == numbers.get(other):
                 yield value, f"`{one}` and `{other}` are both {value.text}"
+
+
+def _reversed(numbers: Mapping[str, float | None]) -> list[tuple[str, str]]:
+    """Return the pairs of a minimum and a smaller maximum, without those of a value between two reversed bounds."""
+    found = [
+        (low, high)
+        for low, high in ORDERED
+        if (least := numbers.get(low)) is not None and (most := numbers.get(high)) is not None and least > most
+    ]
+    return [
+        (low, high)
+        for low, high in found
+        if not any(
+            (one == low and (high, other) in ORDERED) or (other == high and (one, low) in ORDERED)
+            for one, other in found
+        )
+    ]

@@ -51,4 +51,5 @@ class SensorsShareTopic(RobotRule):
                 sensor.element,
                 f"`{sensor.name}` publishes on `{sensor.topic}`, which `{other.name}` also uses",
                 help=f"choose another topic; the other sensor is at {model.shown(other.element.origin.position)}",
+                names=(sensor.topic.strip("/"),),
             )

@@ -64,5 +64,5 @@ class MoveitControllerContradiction(RobotRule):
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
                         yield self.at_span(span_of(source, node), message, names=(node.text,))
-        for span, message in unspawned(names, started, model):
-            yield self.at_span(span, message, kind="unspawned")
+        for span, message, name in unspawned(names, started, model):
+            yield self.at_span(span, message, kind="unspawned", names=(name,))

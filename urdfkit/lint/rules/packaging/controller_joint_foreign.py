@@ -56,4 +56,4 @@ class ControllerJointForeign(RobotRule):
                         if is_joint and "$" not in inner.text and (inner.line, inner.column) not in misspelt:
                             message = f"`{key.text}` has `{inner.text}`, which controller `{one.name}` does not control"
                             hint = meant(inner.text, names)[1]
-                            yield self.at_span(span_of(source, inner), message + hint)
+                            yield self.at_span(span_of(source, inner), message + hint, names=(inner.text,))

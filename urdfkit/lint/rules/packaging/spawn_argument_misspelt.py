@@ -108,8 +108,8 @@ class SpawnArgumentMisspelt(RobotRule):
                         continue
                     reported.add(word.start)
                     message = f"no node of these packages is in the namespace of `{word.name}`"
-                    span = source.span(word.start, word.end)
-                    yield self.at_span(span, message, severity="warning")
+                    span, names = source.span(word.start, word.end), (word.name.strip("/"),)
+                    yield self.at_span(span, message, severity="warning", names=names)
                 if node.package == "controller_manager" and node.program in ("spawner", "spawner.py"):
                     for start, text, message in _unknown_options(node, 1 if reads_ros1(source) else 2):
                         span, names = source.span(start, start + len(text)), (node.program,)

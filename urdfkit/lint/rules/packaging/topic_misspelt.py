@@ -1,5 +1,6 @@
 """K977 topic-misspelt."""
 
+from urdfkit.lint.finding import suggestion_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -43,4 +44,6 @@ class TopicMisspelt(RobotRule):
 
         for span, topic, hint in misspelt_topics(model):
             message = f"no other file names the topic `{topic}`" + hint
-            yield self.at_span(span, message, names=(topic.strip("/"),))
+            suggestion = suggestion_of(message)
+            named = (topic, suggestion.meant) if suggestion is not None else (topic,)
+            yield self.at_span(span, message, names=tuple(name.strip("/") for name in named))
