@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any, Literal
 
+    from urdfkit.description.xml.element import Element
+
     Severity = Literal["error", "warning", "note"]
     Safety = Literal["safe", "unsafe"]
 else:
@@ -70,7 +72,9 @@ class Finding:
         kind: which of the rule's defects it is, where groups or other rules depend on it; not in the output.
         names: further names that the finding is about, such as both joints of a pair; not in the output.
         suggestion: the valid name that message or help suggest in place of a misspelt one; None without one.
-        related: the findings of other places with the same cause, where findings are grouped.
+        other: the other side of a contradiction, where the finding is shown if that side is wrong; not in the output.
+        is_other_wrong: whether the other side is certainly the wrong one; not in the output.
+        related: the findings of other places with the same cause, and the places that contradict this one.
         variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
 
     Examples:
@@ -98,12 +102,19 @@ class Finding:
     kind: str = ""
     names: tuple[str, ...] = ()
     suggestion: Suggestion | None = None
+    other: Span | None = None
+    is_other_wrong: bool = False
     related: tuple[Finding, ...] = ()
     variant: str = ""
 
     def __repr__(self) -> str:
         """Return code, position and message."""
         return f"<Finding {self.code} {self.file}:{self.line}:{self.column}: {self.message}>"
+
+    def with_expansion_of(self, twin: Element) -> Finding:
+        """Return the finding with the macro calls of a second element that the same tag of a macro produced."""
+        chain = twin.origin.expansions
+        return Finding(**{**self.__dict__, "chains": tuple(dict.fromkeys((chain, *self.chains)))}) if chain else self
 
     @property
     def file(self) -> str:

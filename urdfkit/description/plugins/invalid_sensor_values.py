@@ -141,7 +141,8 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
         yield written, f"unknown pixel format `{written.text}`" + hint
     near, far = _number(clip, "near", 0.1), _number(clip, "far", 100.0)
     if not isnan(near + far) and not near < far:
-        yield clip or camera, f"the range of the camera, {near:g} m to {far:g} m, is empty"
+        place = clip.find("near") if clip is not None else None
+        yield place or clip or camera, f"the range of the camera, {near:g} m to {far:g} m, is empty"
 
 
 def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:

@@ -1,20 +1,24 @@
 """Findings on a value that a macro only hands on, at the macro call where a person wrote it."""
 
 import re
+from collections.abc import Sequence
 
-from urdfkit.description.xml.source import Span
+from urdfkit.description.xml.source import Expansion, Span
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 
 _HANDED_ON = r"[\s0]*\$\{\s*([A-Za-z_]\w*)\s*\}[\s0]*"
 """Matches a parameter, perhaps between zeros: ``0 0 ${yaw}``."""
 
+_ALL_HANDED_ON = r"[\s0]*(?:\$\{\s*[A-Za-z_]\w*\s*\}[\s0]*){2,}"
+"""Matches several parameters and zeros, and nothing else: ``${x} 0 ${z}``."""
+
 _ATTRIBUTE = rf"[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"']"
 _TAG = rf"<[\w:.-]+\s+{_ATTRIBUTE}\s*/?>"
 """Matches a tag with one attribute."""
 
-_TEXT = rf"<[\w:.-]+(?:\s[^<>]*)?>{_HANDED_ON}</"
-"""Matches an element whose text is a parameter."""
+_TEXT = rf"<[\w:.-]+(?:\s[^<>]*)?>(?:[\w~/]+:=)?{_HANDED_ON}</"
+"""Matches an element whose text is a parameter, perhaps as the new name of a remapping."""
 
 
 def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
@@ -25,8 +29,18 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
     comments. The help names the place in the macro. With urdfkit as the target all stay, since the repairs of the
     simulator and viewer are reported there.
     """
+    formulas = {(each.file, each.line) for each in findings if each.code == "X119"}
     groups: dict[tuple[str, Span], list[Span | None]] = {}
-    written = [_written(finding, model) if finding.chains else None for finding in findings]
+    calls: dict[tuple[str, Span], set[Expansion]] = {}
+    for finding in findings:
+        if (finding.file, finding.line) not in formulas:  # which the macro itself has wrong
+            calls.setdefault((finding.code, finding.span), set()).update(chain[0] for chain in finding.chains)
+    written = [
+        (_written(finding, model) or _only_call(finding, calls.get((finding.code, finding.span), set()), model))
+        if finding.chains
+        else None
+        for finding in findings
+    ]
     for finding, span in zip(findings, written, strict=True):
         groups.setdefault((finding.code, finding.span), []).append(span)
     return [
@@ -48,17 +62,20 @@ def _written(finding: Finding, model: Model) -> Span | None:
     """
     from urdfkit.lint.facts.root_cause import value_of
 
-    if finding.file not in model.expanded.sources or len(finding.chains) != 1:
+    if finding.file not in model.expanded.sources:
         return None
-    document, calls, span = model.document(finding.file), finding.chains[0], finding.span
+    calls, is_of_twins = _shared(finding.chains), len(finding.chains) > 1
+    document, span = model.document(finding.file), finding.span
     if "urdfkit:" in document.source.text:
         return None
+    if not is_of_twins and (call := _call_with_all(finding, model)) is not None:
+        return call
     start, end = (document.source.offset(*at) for at in ((span.line, span.column), (span.end_line, span.end_column)))
     text = document.source.text
     whole = re.fullmatch(_ATTRIBUTE, text[start:end])
     handed_on = whole or re.fullmatch(_TAG, text[start:end]) or re.match(_TEXT, text[start:])
     found: Span | None = None
-    while handed_on is not None:
+    while handed_on is not None and (calls or not is_of_twins):
         value, place, outer = value_of(model, handed_on[1], calls)
         is_property = place is not None and (not calls or place[0] != calls[0].position)
         if place is None or (is_property and not (_is_used_once(handed_on[1], model) and value.strip() and not outer)):
@@ -71,6 +88,60 @@ def _written(finding: Finding, model: Model) -> Span | None:
             break
         calls = tuple(outer)
     return found
+
+
+def _only_call(finding: Finding, calls: set[Expansion], model: Model) -> Span | None:
+    """Return the one macro call whose arguments give a wrong inertia, while the macro gives right ones elsewhere."""
+    is_computed = finding.code.startswith("I") or (finding.code == "J414" and "rpy" in _text(finding, model))
+    if not is_computed or len(calls) != 1 or finding.file not in model.expanded.sources:
+        return None
+    if "urdfkit:" in model.document(finding.file).source.text:
+        return None
+    start = finding.span.start
+    before = {each.origin.position for each in model.elements if each.origin.position.file == finding.file}
+    tag = max((each for each in before if (each.line, each.column) <= (start.line, start.column)), default=None)
+    of_tag = [each.origin for each in model.elements if each.origin.position == tag]
+    others = {origin.expansions[0] for origin in of_tag if origin.expansions} - calls
+    if not others:
+        return None
+    call = model.tag(next(iter(calls)).position)
+    origin = next((each for each in call.children if each.name == "origin"), None) if call is not None else None
+    if origin is not None and finding.code == "I519":  # the block that turns the moments
+        return model.document(next(iter(calls)).position.file).source.span(origin.start, origin.end)
+    return model.span(next(iter(calls)).position)
+
+
+def _text(finding: Finding, model: Model) -> str:
+    """Return the text that a finding marks; empty outside of the description."""
+    if finding.file not in model.expanded.sources:
+        return ""
+    source, span = model.document(finding.file).source, finding.span
+    return source.text[source.offset(span.line, span.column) : source.offset(span.end_line, span.end_column)]
+
+
+def _shared(chains: Sequence[tuple[Expansion, ...]]) -> tuple[Expansion, ...]:
+    """Return the innermost calls that are the same in all chains, such as those of one joint in both of two legs."""
+    first, count = chains[0], 0
+    while all(len(each) > count and each[count] == first[count] for each in chains):
+        count += 1
+    return first[:count]
+
+
+def _call_with_all(finding: Finding, model: Model) -> Span | None:
+    """Return the macro call whose arguments are all values of the attribute that a finding is about.
+
+    Other calls of the macro pass other values, so the macro itself is right.
+    """
+    from urdfkit.lint.facts.root_cause import value_of
+
+    document, calls, span = model.document(finding.file), finding.chains[0], finding.span
+    start, end = (document.source.offset(*at) for at in ((span.line, span.column), (span.end_line, span.end_column)))
+    written = re.search(rf"=\s*[\"']({_ALL_HANDED_ON})[\"']", document.source.text[start:end])
+    if written is None:
+        return None
+    found = [value_of(model, name, calls) for name in re.findall(r"\{\s*(\w+)\s*\}", written[1])]
+    is_call = all(place is not None and place[0] == calls[0].position for _, place, _ in found)
+    return model.span(calls[0].position) if is_call else None
 
 
 def _is_used_once(name: str, model: Model) -> bool:

@@ -38,6 +38,7 @@ def overlapping_twins(model: Model) -> Iterator[tuple[Link, Element, str]]:
             width = min(high[1] - low[1], high2[1] - low2[1])
             if min(depths) > 0.0 and depths[1] > _OVERLAP * width and low[1] + high[1] != low2[1] + high2[1]:
                 shape = next((each.element.find("geometry") for each in shapes_of(other)), None)
+                shape = next(iter(shape.children), None) if shape is not None else None
                 message = f"links `{link.name}` and `{name}` overlap by {depths[1]:.3g} m"
                 yield other, shape or other.element, message
 

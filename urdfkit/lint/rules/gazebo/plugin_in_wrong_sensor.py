@@ -1,6 +1,9 @@
 """Z836 plugin-in-wrong-sensor."""
 
+import re
+
 from urdfkit.description.plugins.lookup import stem
+from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -51,13 +54,20 @@ class PluginInWrongSensor(RobotRule):
                 name for name, accepted in SENSORS_OF_LIBRARIES.items() if kind in accepted and _alike(name, library)
             ]
             help = f'write type="{types[0]}"' + (f", or use lib{others[0]}.so" if others else "")
+            is_type_wrong = sensor is not None and _is_of_other_type(sensor, types)
             yield self.at(
                 model,
-                plugin.element,
+                sensor.element if sensor is not None and is_type_wrong else plugin.element,
                 message,
-                attribute="filename",
+                attribute="type" if is_type_wrong else "filename",
                 help=f'put it into <sensor type="{types[0]}">' if kind is None else help,
             )
+
+
+def _is_of_other_type(sensor: SensorTag, types: tuple[str, ...]) -> bool:
+    """Return whether the name or an element of a sensor is that of an accepted type, and none that of its own."""
+    words = {*re.split(r"[^a-z]+", (sensor.name or "").lower()), *(child.tag for child in sensor.element.children)}
+    return not words.isdisjoint(types) and (sensor.type or "").strip() not in words
 
 
 def _alike(first: str, second: str) -> bool:

@@ -69,15 +69,34 @@ class AxisNotAlongWheel(RobotRule):
             if max(cosines) < PARALLEL:
                 forward_axis = _forward_axis(model, joint, discs[0])
                 expected = " ".join(f"{round(part, 3) + 0.0:g}" for part in forward_axis)
+                place, attribute = joint.element.find("axis") or joint.element, "xyz"
+                if _is_across(joint, axis, model):
+                    shape = next(each for each in shapes_of(wheel) if isinstance(each.geometry, Cylinder))
+                    place, attribute = shape.element.find("origin") or shape.element, "rpy"
                 yield self.at(
                     model,
-                    joint.element.find("axis") or joint.element,
+                    place,
                     f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about the axis of the wheel, "
                     f"{expected} in the joint frame",
-                    attribute="xyz",
+                    attribute=attribute,
                     joint=joint.name,
                     help=f'write <axis xyz="{expected}"/>, or rotate the shape: a cylinder extends along its z axis',
                 )
+
+
+def _is_across(joint: Joint, axis: Vector, model: Model) -> bool:
+    """Return whether the axis of a wheel points to the wheel on the other side, so that its shape is wrong."""
+    from urdfkit.lint.facts.twins import mirrored
+
+    for name in mirrored(joint.name):
+        other = model.robot.joint_by_name.get(name)
+        if other is not None and other.parent == joint.parent:
+            (x, y, z), (x2, y2, z2) = joint.origin.xyz, other.origin.xyz
+            offset = unit((x2 - x, y2 - y, z2 - z))
+            across = rotate(rotation_of(joint.origin.rpy), axis)
+            if offset is not None and abs(sum(a * b for a, b in zip(offset, across, strict=True))) > PARALLEL:
+                return True
+    return False
 
 
 def _forward_axis(model: Model, joint: Joint, axis: tuple[float, ...]) -> Vector:

@@ -1,8 +1,13 @@
 """J406 limit-equal."""
 
+import re
+
 from urdfkit.description.urdf.robot import Limit
 from urdfkit.description.urdf.version import RATE_LIMITS, version_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_TURNING = re.compile(r"(?i)wheel|roller|caster|rotor|propeller|spin|fan(?![a-z])")
+"""Matches the name of a joint that turns without limits, so that its type is wrong and not its limit."""
 
 
 class LimitEqual(RobotRule):
@@ -56,10 +61,12 @@ class LimitEqual(RobotRule):
                     else f"both limits are {lower:g} {unit}"
                 )
                 alternative = "`continuous` if it turns without limits, or " if joint.type == "revolute" else ""
+                is_turning = is_omitted and joint.type == "revolute" and _TURNING.search(joint.name) is not None
                 yield self.at(
                     model,
-                    limit.element,
+                    joint.element if is_turning else limit.element,
                     f"joint `{joint.name}` cannot move: {reason}",
+                    attribute="type" if is_turning else None,
                     joint=joint.name,
                     help=f"write the range of motion, or use the type {alternative}`fixed` if it never moves",
                     severity="note" if lower else None,

@@ -136,8 +136,11 @@ class CasterOffTheGround(RobotRule):
                 wheels = tuple(wheel.joint.child or "" for wheel in (*drive.left, *drive.right))
                 # The other shapes of the link are above the ground, so the place of this one is wrong.
                 is_only = shape is not None and (len(link.collisions) == len(link.visuals) == 1 and _differ(link))
+                origin = joint.element.find("origin") if joint is not None else None
                 place = shape.element.find("origin") or shape.element if shape is not None and is_only else element
                 attribute = None if is_only else "name"
+                if origin is not None and not is_only:
+                    place, attribute = origin, "xyz"
                 yield self.at(model, place, message, attribute=attribute, link=link.name, help=help, names=wheels)
             elif joint is not None and is_caster and len(drive.left) == 1 and gap < 2.0 * radius:
                 supports.append((gap / max(distance, 1e-3), gap, joint))

@@ -127,7 +127,17 @@ class DriveWheelsMisaligned(RobotRule):
             else None
         )
         place, attribute = (joint.element, "name") if call is None else (call, None)
-        return self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
+        is_apart = max(_distances(first, other)) >= _MIN_DISTANCE
+        wrong = joint.element.find("axis" if _are_opposite(first, other) else "origin") if is_apart else None
+        if wrong is not None:
+            place, attribute = wrong, "xyz"
+        found = self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
+        own, twin = joint.element.origin, first.joint.element.origin
+        return found.with_expansion_of(first.joint.element) if own.position == twin.position else found
+
+
+def _are_opposite(one: Wheel, other: Wheel) -> bool:
+    return sum(a * b for a, b in zip(one.axis, other.axis, strict=True)) < _OPPOSITE
 
 
 def _distances(one: Wheel, other: Wheel) -> list[float]:
@@ -142,7 +152,7 @@ def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:
     distances = _distances(left, right)
     if max(distances) < _MIN_DISTANCE:
         return f"drive wheels {both} are in the same place", "correct the <origin> of one of the joints"
-    if sum(a * b for a, b in zip(left.axis, right.axis, strict=True)) < _OPPOSITE:
+    if _are_opposite(left, right):
         message = f"the axes of drive wheels {both} point in opposite directions, so the robot turns on the spot"
         return message, "reverse the axis of one of the joints"
     height_difference = min((a[2] - b[2] for a, b in zip(left.middles, right.middles, strict=False)), key=abs)

@@ -72,7 +72,9 @@ class TwinsTurnDifferently(RobotRule):
             element = second.element.find("axis") or second.element
             help = "reverse the axis of one joint, or negate and exchange its limits"
             names = (first.name, second.name)
-            yield self.at(model, element, message, attribute="xyz", joint=second.name, help=help, names=names)
+            found = self.at(model, element, message, attribute="xyz", joint=second.name, help=help, names=names)
+            is_one_tag = first.element.origin.position == second.element.origin.position
+            yield found.with_expansion_of(first.element) if is_one_tag else found
 
 
 def _pairs(model: Model) -> Iterator[tuple[Joint, Joint]]:
