@@ -270,7 +270,7 @@ def test_the_advice_on_a_misspelt_package_is_its_name(source, file, text, used, 
         assert (found.severity, found.message) == ("error", f"unknown package `{used}`; did you mean `{meant}`?")
         assert found.help is None
     line = next(number for number, each in enumerate(text.splitlines(), 1) if "{}" in each)
-    assert found.line == line
+    assert [each.line for each in (found.related if meant is None else [found])] == [line]
 
 
 def test_the_misspelt_package_of_a_mesh_is_an_error_with_its_name(source):

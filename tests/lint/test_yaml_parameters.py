@@ -377,7 +377,7 @@ def test_a_correct_file_of_ros2_is_silent(ros2, file, old, new):
             "",
             "2: controller `joint_state_controller` has no `type`",
         ),
-        ("    joints: [shoulder, elbow]\n", "", "5: controller `arm_controller` has no `joints`"),
+        ("    joints: [shoulder, elbow]\n", "", "6: controller `arm_controller` has no `joints`"),
         (
             "    type: velocity_controllers/JointTrajectoryController\n    joints: [shoulder, elbow]\n",
             "    type: effort_controllers/JointPositionController\n    joints: elbow\n",

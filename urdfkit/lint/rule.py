@@ -64,6 +64,8 @@ class Rule:
         cause: str = "",
         kind: str = "",
         names: tuple[str, ...] = (),
+        other: Span | None = None,
+        is_other_wrong: bool = False,
     ) -> Finding:
         """Create a finding.
 
@@ -80,6 +82,8 @@ class Rule:
             cause: see `Finding.cause`.
             kind: see `Finding.kind`.
             names: see `Finding.names`.
+            other: see `Finding.other`.
+            is_other_wrong: see `Finding.is_other_wrong`.
         """
         message = shortened(message)
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
@@ -97,6 +101,8 @@ class Rule:
             cause=cause,
             kind=kind,
             names=names,
+            other=other,
+            is_other_wrong=is_other_wrong,
         )
 
     def at_span(self, span: Span, message: str, severity: Severity | None = None, **details: Any) -> Finding:

@@ -241,11 +241,12 @@ def test_launch_files_need_what_they_start_and_include(workspace):
         '<launch>\n<!-- <node pkg="gone" type="x"/> -->\n<node pkg="rviz" type="rviz"/>\n'
         '<include file="$(find arm_start)/launch/x.launch"/></launch>\n'
     )
-    findings = [finding for finding in lint(workspace) if finding.code == "K956"]
+    findings = [each for finding in lint(workspace) if finding.code == "K956" for each in finding.related]
     assert [(f.file.rpartition("/")[2], f.line, f.message.split("`")[1]) for f in findings] == [
-        ("view.launch", 3, "rviz"),
         ("view.launch", 4, "arm_start"),
+        ("view.launch", 3, "rviz"),
         ("arm.launch.py", 5, "other_settings"),
+        ("arm.launch.py", 6, "rviz2"),
         ("arm.launch.py", 6, "rviz2"),
     ]
 

@@ -287,6 +287,7 @@ def _row(finding: Finding) -> list[Any]:
         finding.suggestion and [finding.suggestion.meant, finding.suggestion.written],
         finding.kind,
         finding.names,
+        [_row(each) for each in finding.related],
     ]
 
 
@@ -298,7 +299,7 @@ def _finding(row: list[Any]) -> Finding:
     from urdfkit.description.xml.source import Expansion, Position, Span
 
     code, name, severity, message = row[:4]
-    link, joint, help, fix, chains, cause, variant, suggestion, kind, names = row[9:]
+    link, joint, help, fix, chains, cause, variant, suggestion, kind, names, related = row[9:]
     return Finding(
         code,
         name,
@@ -315,4 +316,5 @@ def _finding(row: list[Any]) -> Finding:
         names,
         suggestion=suggestion and Suggestion(*suggestion),
         variant=variant,
+        related=tuple(map(_finding, related)),
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.engine.cache import packages_of
+from urdfkit.lint.engine.contradictions import at_wrong_side
 from urdfkit.lint.engine.package_without_robot import empty_root, package_model, package_rules
 from urdfkit.lint.engine.rule_runner import RuleRunner
 from urdfkit.lint.finding import EntryResult, Finding
@@ -220,6 +221,8 @@ class Checker:
             from urdfkit.lint.engine.suppression import without_suppressed
 
             findings, used, unused = without_suppressed(findings, model, entry, options, self.runner)
+        if model.target != "urdfkit":
+            findings = at_wrong_side(findings)
         here = str(Path.cwd())
         read = (*model.expanded.sources, *(model.related_files if model.expanded.root is not None else ()))
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
@@ -234,6 +237,7 @@ class Checker:
         self.runner.failures = []
         rules = [rule for rule in package_rules(model) if self.runner.applies(rule, model.target)]
         findings = [finding for rule in rules for finding in self.runner.robot_findings(rule, entry.path, model)]
+        findings = at_wrong_side(findings)
         files = {name: os.path.join(str(Path.cwd()), name) for name in model.related_files}  # noqa: PTH118
         self.sources.update(model.related_files)
         folder = entry.path.absolute().parent
@@ -249,7 +253,7 @@ def _only(entry: Entry, findings: list[Finding], files: Mapping[str, str]) -> li
         return findings
     only = {path.resolve() for path in entry.only}
     names = {name for name, path in files.items() if not only.isdisjoint(((at := Path(path).resolve()), *at.parents))}
-    return [finding for finding in findings if finding.file in names]
+    return [one for one in findings if not names.isdisjoint((one.file, *(each.file for each in one.related)))]
 
 
 def _is_part(model: Model) -> bool:

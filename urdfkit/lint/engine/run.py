@@ -160,6 +160,7 @@ class _MergedFinding:
     def __init__(self, first: Finding) -> None:
         self._most_severe = first
         self._chains = dict.fromkeys(first.chains)
+        self._related = {each.span: each for each in first.related}
 
     def add(self, finding: Finding) -> bool:
         """Add a finding with the same message or from another expansion; return False if it is neither."""
@@ -169,13 +170,12 @@ class _MergedFinding:
         if SEVERITIES.index(finding.severity) < SEVERITIES.index(self._most_severe.severity):
             self._most_severe = finding
         self._chains.update(dict.fromkeys(finding.chains))
+        self._related.update((each.span, each) for each in finding.related)
         return True
 
     def finding(self) -> Finding:
-        """Return the most severe finding, with the macro chains of all."""
-        chains = tuple(self._chains)
-        return (
-            self._most_severe
-            if chains == self._most_severe.chains
-            else Finding(**{**self._most_severe.__dict__, "chains": chains})
-        )
+        """Return the most severe finding, with the macro chains and related places of all."""
+        found, chains, related = self._most_severe, tuple(self._chains), tuple(self._related.values())
+        if (chains, len(related)) == (found.chains, len(found.related)):
+            return found
+        return Finding(**{**found.__dict__, "chains": chains, "related": related})

@@ -1,4 +1,6 @@
-"""Packages whose plugins a robot's files name: of Gazebo, of MoveIt, and that of the description in a MoveIt package.
+"""Packages whose plugins a robot's files name, and places of missing dependencies in package.xml.
+
+The packages are those of Gazebo and MoveIt, and that of the description in a MoveIt package.
 
 Sources: the plugin descriptions and package.xml of moveit_kinematics, moveit_planners, moveit_plugins, trac_ik and
 pick_ik, and of gazebo_ros2_control, gz_ros2_control and gazebo_ros_control; moveit_configs_utils,
@@ -11,12 +13,13 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.related_files import dependencies_in, package_of
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
+    from urdfkit.description.xml.source import Source, Span
 
 SIMULATED_CONTROL = {
     "gazebo_ros2_control": "gazebo_ros",
@@ -73,7 +76,7 @@ def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[Packag
         model: the linted model.
         declared: folder of a package → its name and its dependencies.
     """
-    from urdfkit.description.packages.related_files import LAUNCH, package_of
+    from urdfkit.description.packages.related_files import LAUNCH
 
     for file, source in model.related_files.items():
         if not file.endswith((*LAUNCH, ".yaml", ".yml")):
@@ -94,3 +97,46 @@ def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[Packag
         if described is not None:
             use = "whose description MoveItConfigsBuilder reads"
             yield PackageUse(source, builder.start(), builder.end() - 1, described[1], use, is_own=True)
+
+
+_DEPENDENCY = r"<(exec_depend|run_depend|depend)\b[^>]*>\s*([^<\s]+)\s*</\1>"
+
+
+def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool) -> Span | None:
+    """Return the element in package.xml after which a dependency is to be added; None without a package.xml.
+
+    It is added to the package that uses it. Where any package of the robot may have it and that one depends on no
+    package of the same family, such as ``gazebo_ros`` and ``gazebo_plugins``, it is added to one that does.
+
+    Args:
+        name: the missing package.
+        used_in: the file that uses it, as shown to the user.
+        model: the linted model.
+        is_own: whether only the package that uses it can have it.
+    """
+    own, words = package_of(Path(used_in)), {name.partition("_")[0], name.rpartition("_")[2].removesuffix("s")}
+    found: list[tuple[bool, int, Source]] = []
+    for file, source in model.related_files.items():
+        if file.endswith("package.xml"):
+            needed = dependencies_in(source.text)
+            family = [each for each in needed if not words.isdisjoint(re.split("_|s$", each))]
+            found.append((Path(file).absolute().parent == own, len(family), source))
+    manifest = next((source for is_user, family, source in found if is_user and (family or is_own)), None)
+    others = sorted((each for each in found if each[1] and not is_own), key=lambda each: -each[1])
+    manifest = manifest or next((source for _, _, source in others), None)
+    manifest = manifest or next((source for is_user, _, source in found if is_user), None)
+    return _place_in(manifest, name) if manifest is not None else None
+
+
+def _place_in(manifest: Source, name: str) -> Span:
+    """Return the dependency before the place of a new one: by the alphabet if it orders them, else the last one."""
+    text = re.sub(r"(?s)<!--.*?-->", lambda comment: " " * len(comment[0]), manifest.text)
+    entries = list(re.finditer(_DEPENDENCY, text))
+    entries = [each for each in entries if each[1] != "depend"] or entries
+    names = [each[2] for each in entries]
+    if not entries:
+        end = text.rfind("</package>")
+        return manifest.span(max(end, 0), max(end, 0) + len("</package>"))
+    before = [each for each in entries if each[2] < name] if names == sorted(names) else entries
+    last = (before or entries[:1])[-1]
+    return manifest.span(last.start(), last.end())

@@ -10,8 +10,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
+    from urdfkit.description.urdf.robot import Joint
     from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Expansion, Position
+    from urdfkit.description.xml.source import Expansion, Position, Span
     from urdfkit.lint.model.model import Model
 
     Place = tuple[Position, str]
@@ -145,6 +146,32 @@ def value_of(model: Model, name: str, calls: Sequence[Expansion]) -> tuple[str, 
         return "", None, ()
     is_local = any(above.name in ("xacro:macro", "macro") for above in tag.ancestors())
     return value.value, (position, "value"), calls if is_local else ()
+
+
+def written_at(model: Model, element: Element | None, attribute: str) -> Span | None:
+    """Return the place of an attribute, or of the argument or property that a macro uses alone for it."""
+    tag = model.tag(element.origin.position) if element is not None else None
+    written = tag.attributes.get(attribute) if tag is not None else None
+    if element is None or written is None:
+        return None
+    place, text, calls = (element.origin.position, attribute), written.value, tuple(element.origin.expansions)
+    while (alone := re.fullmatch(r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*", text)) is not None:
+        text, deeper, outer = value_of(model, alone[1], calls)
+        if deeper is None:
+            break
+        place, calls = deeper, tuple(outer)
+    return model.span(*place)
+
+
+def parent_at(model: Model, joint: Joint | None) -> Span | None:
+    """Return the place where the parent of a joint is written."""
+    return written_at(model, joint.element.find("parent"), "link") if joint is not None else None
+
+
+def type_at(model: Model, joint: Joint) -> tuple[Span | None, bool]:
+    """Return the place of the type of a fixed joint that is moved, and whether its limits contradict the type too."""
+    has_limits = joint.limit is not None and joint.limit.lower != joint.limit.upper
+    return written_at(model, joint.element, "type"), has_limits
 
 
 def is_not_positive(text: str) -> bool:

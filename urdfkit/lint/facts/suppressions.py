@@ -15,7 +15,7 @@ import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping
 
-from urdfkit.description.xml.source import Position
+from urdfkit.description.xml.source import Position, Span
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.tags import Document
 from urdfkit.record import record
@@ -70,8 +70,9 @@ def suppressed(
     findings = list(findings)
     lines: dict[str, dict[str, list[int]]] = {}
     for finding in findings:
-        if finding.file in by_file:
-            lines.setdefault(finding.file, {}).setdefault(finding.code, []).append(finding.line)
+        for span in _places(finding):
+            if span.file in by_file:
+                lines.setdefault(span.file, {}).setdefault(finding.code, []).append(span.line)
     used: set[tuple[Suppression, str]] = set()
     met: dict[tuple[str, str], _Lines] = {}
     for file, by_code in lines.items():
@@ -81,8 +82,17 @@ def suppressed(
             found = [one for one in items if _meets(one, at)]
             used.update((one, code) for one in found)
             met[file, code] = _Lines(one.lines for one in found)
-    left = [one for one in findings if (one.file, one.code) not in met or one.line not in met[one.file, one.code]]
+
+    def is_met(code: str, span: Span) -> bool:
+        return (span.file, code) in met and span.line in met[span.file, code]
+
+    left = [one for one in findings if not any(is_met(one.code, span) for span in _places(one))]
     return left, used
+
+
+def _places(finding: Finding) -> tuple[Span, ...]:
+    """Return the place of a finding, and of the other side of a contradiction, where it may be shown."""
+    return (finding.span,) if finding.other is None else (finding.span, finding.other)
 
 
 def _meets(item: Suppression, lines: list[int]) -> bool:

@@ -43,7 +43,8 @@ def grouped(findings: Iterable[Finding], sources: Mapping[str, Source]) -> list[
             if len(part) < _smallest(part, numbers):
                 found += part
             else:
-                found.append(Finding(**{**first.__dict__, "related": tuple(others)}))
+                places = [*first.related, *(each for one in others for each in (one, *one.related))]
+                found.append(Finding(**{**first.__dict__, "related": tuple(places)}))
     return sorted(found, key=lambda one: (one.span, one.code, one.message))
 
 

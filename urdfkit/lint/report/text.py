@@ -65,7 +65,7 @@ class TextReport:
         shown = finding.related[:_LISTED_PLACES]
         same = all(one.message == finding.message for one in finding.related)
         left = len(finding.related) - len(shown)
-        lines = [f"  {len(finding.related)} more places:"]
+        lines = [f"  {len(finding.related)} more place{'s' if len(finding.related) > 1 else ''}:"]
         lines += [f"    {one.file}:{one.line}:{one.column}{'' if same else f': {one.message}'}" for one in shown]
         return [*lines, f"    and {left} more"] if left else lines
 

@@ -56,8 +56,8 @@ class _Connection:
     is_renamed: bool = False
 
 
-def separated_nodes(model: Model) -> Iterator[tuple[Span, str]]:
-    """Yield place and message of each node whose topic another node has in another namespace."""
+def separated_nodes(model: Model) -> Iterator[tuple[Span, str, str]]:
+    """Yield place, message and topic of each node whose topic another node has in another namespace."""
     seen = set[tuple[str, int]]()
     for base in ("robot_description", "joint_states"):
         trees = [(tree, _publishers(tree, base)) for tree in launch_trees(model)]
@@ -78,7 +78,7 @@ def separated_nodes(model: Model) -> Iterator[tuple[Span, str]]:
                     span = place_of(wrong.node, model)
                     if span is not None and (span.file, span.line) not in seen:
                         seen.add((span.file, span.line))
-                        yield span, message
+                        yield span, message, reader.topic.strip("/")
 
 
 def _message(tree: LaunchContents, publishers: list[_Connection], reader: _Connection) -> tuple[_Connection, str]:

@@ -105,15 +105,15 @@ _EXCLUSIVE = ("allow_reversing", "use_rotate_to_heading")
 
 
 def _unread_sections(files: list[Source]) -> Defects:
-    """Yield the section of a planner in ROS 1 if the planner that move_base loads has no section."""
-    loaded: dict[tuple[Path | None, str], set[str]] = {}
+    """Yield the planner that move_base loads in ROS 1 if the parameters are those of another planner."""
+    loaded: dict[tuple[Path | None, str], dict[str, tuple[Source, Node]]] = {}
     written: dict[Path | None, list[tuple[Source, Node]]] = {}
     for source in files:
         package = package_of(Path(source.file))
         for node in nodes(source):
             for key, value in node.entries:
                 if key.text in _LOADED and value.kind == "text":
-                    loaded.setdefault((package, key.text), set()).add(value.text.rpartition("/")[2])
+                    loaded.setdefault((package, key.text), {})[value.text.rpartition("/")[2]] = (source, value)
                 elif value.kind == "group":
                     written.setdefault(package, []).append((source, key))
     for (package, parameter), kinds in loaded.items():
@@ -121,9 +121,9 @@ def _unread_sections(files: list[Source]) -> Defects:
         sections_of = [(source, key) for source, key in written.get(package, []) if key.text in _LOADED[parameter]]
         if len(kinds) > 1 or kind not in _LOADED[parameter] or len({key.text for _, key in sections_of}) != 1:
             continue
-        source, key = sections_of[0]
+        _, key = sections_of[0]
         if key.text != kind:
-            yield source, key, f"`{parameter}` loads `{kind}`, which does not read the section `{key.text}`"
+            yield *kinds[kind], f"`{parameter}` loads `{kind}`, which does not read the section `{key.text}`"
 
 
 def _in_ros1(source: Source, loaded: set[str]) -> Defects:

@@ -97,7 +97,13 @@ def misnamed(model: Model) -> Defects:
                 yield node.source, _span(node), message
             elif node.name is not None and (unused := _unused(node, by_file[file], readers, started)):
                 message = f"node `{name}` has no section in {_short(file)}, and no node is named `{unused}`"
-                yield node.source, _span(node), message
+                key = next(each for each, other in keys if other == unused)
+                # A node that has the name by default, or the name of its program, is not the misnamed side.
+                is_default = name in _RELEASED_NAMES or name in (node.program, _default(node))
+                if is_default and unused not in _RELEASED_NAMES:
+                    yield by_file[file], span_of(by_file[file], key), message
+                else:
+                    yield node.source, _span(node), message
     yield from _unmanaged(model, nodes, {each for each in started if each})
 
 
@@ -214,7 +220,18 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
             if name in meant:
                 continue
             message = f"no lifecycle manager of this file lists the node `{name}`, so it is never activated"
-            yield source, next((at for each, at in listed if each in own), span), message
+            first = next((at for each, at in listed if each in own), None)
+            yield source, _start_of_list(source, first) if first is not None else span, message
+
+
+def _start_of_list(source: Source, item: Span) -> Span:
+    """Return the line on which the list of an item begins; the item itself in block style."""
+    start = source.offset(item.line, item.column)
+    opening = max(source.text.rfind(each, 0, start) for each in "[(")
+    if opening < 0 or re.search(r"[\])]", source.text[opening:start]) or source.position(opening).line == item.line:
+        return item
+    line = source.text.rfind("\n", 0, opening) + 1
+    return source.span(line + len(source.text[line:opening]) - len(source.text[line:opening].lstrip()), opening + 1)
 
 
 def _unlisted(

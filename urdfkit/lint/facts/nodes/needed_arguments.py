@@ -59,8 +59,8 @@ _BY_PARAMETER = ("moveit_ros_move_group", "nav2_map_server")
 """Packages whose programs have no command line arguments of their own."""
 
 
-def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
-    """Yield launch file, place and message of each node without its arguments."""
+def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, int], str, tuple[str, ...]]]:
+    """Yield launch file, place and message of each node without its arguments, and the parameters that replace them."""
     for source, tag in tags(ros1_files(model), "node"):
         package, program, arguments = (
             tag.attributes[name].value.strip() if name in tag.attributes else "" for name in ("pkg", "type", "args")
@@ -70,14 +70,18 @@ def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, i
                 source,
                 (tag.start, tag.end),
                 f"`{program}` has no inputs; load its parameters with <rosparam>",
+                (),
             )
         needed = _ROS1.get((package, program))
         if needed is not None and not arguments:
-            yield source, (tag.start, tag.end), f"`{program}` has no arguments; write {needed} in `args`"
+            yield source, (tag.start, tag.end), f"`{program}` has no arguments; write {needed} in `args`", ()
     for node in started_nodes(model):
         message = _of_ros2(node)
         if message:
-            yield node.source, (node.start, node.end), message
+            # In Python, at the first of the parameters, if the node has any.
+            listed = re.compile(r"parameters\s*=\s*\[\s*([^\s,\]]+)").search(node.source.text, node.start, node.end)
+            place = (node.start, node.end) if listed is None else listed.span(1)
+            yield node.source, place, message, _ROS2[node.package, node.program][0]
 
 
 def _has_parameters(tag: Tag, source: Source, pattern: str) -> bool:

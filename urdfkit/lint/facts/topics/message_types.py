@@ -6,13 +6,16 @@ Sources: diff_drive_controller (userdoc.rst), robot_localization (README, Humble
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, span_of, yamls
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.facts.gazebo.sensor_topics import published
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.names import name_of_node
@@ -30,11 +33,19 @@ _DATA_TYPES = (
     *("PoseWithCovarianceStamped", "TwistWithCovarianceStamped"),
 )
 
+_NAMES = {"LaserScan": r"scan[^/]*$", "PointCloud2": r"(?:cloud|points?)[^/]*$"}
+"""Type of messages → the last part of topics that are named after it."""
+
 _TRUTHS = {"true": True, "false": False}
 
 
-def mistyped(model: Model) -> Iterator[tuple[Span, str]]:
-    """Yield the topics that a node reads with another type than they have: place and message."""
+def mistyped(model: Model) -> Iterator[tuple[Span, str, Element | None, bool]]:
+    """Yield the topics that a node reads with another type than they have.
+
+    Yields:
+        The place, the message, the element of the description that sets the type, and whether that is the wrong one
+        according to the name of the topic.
+    """
     read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
     types = _types(model) if read else {}
     unbridged = _unbridged(model) if read else {}
@@ -45,10 +56,23 @@ def mistyped(model: Model) -> Iterator[tuple[Span, str]]:
         span = mention.source.span(start, start + len(name))
         if found and mention.type not in found and mention.type in _DATA_TYPES:
             what = " and ".join(sorted(found))
-            yield span, f"this parameter expects {mention.type} messages, but `{name}` has {what} messages"
+            message = f"`{name}` has {what} messages, but its subscriber expects {mention.type} messages"
+            is_named = re.search(_NAMES.get(mention.type, "$^"), name) is not None
+            yield span, message, _output_type(name.strip("/"), model), is_named
         elif not found and name.strip("/") not in seen and (other := unbridged.get(name.strip("/"))):
             seen.add(name.strip("/"))
-            yield span, f"`{name}` is a topic of Gazebo; the bridge publishes its messages on `{other}`"
+            yield span, f"`{name}` is a topic of Gazebo; the bridge publishes its messages on `{other}`", None, False
+
+
+def _output_type(topic: str, model: Model) -> Element | None:
+    """Return the ``<output_type>`` of the plugin that publishes a topic; None without one."""
+    for publication in published(model):
+        if publication.topic.strip("/") == topic:
+            above = [
+                plugin.element for plugin, _, _ in plugins(model.robot) if publication.element in plugin.element.walk()
+            ]
+            return next((written for each in above if (written := each.find("output_type")) is not None), None)
+    return None
 
 
 def _unbridged(model: Model) -> dict[str, str]:

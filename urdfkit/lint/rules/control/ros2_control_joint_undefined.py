@@ -46,6 +46,8 @@ class Ros2ControlJointUndefined(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined joint and each commanded fixed joint."""
+        from urdfkit.lint.facts.root_cause import type_at
+
         joints = model.robot.joint_by_name
         for block in model.robot.ros2_control:
             for element in block.element.find_all("joint"):
@@ -56,7 +58,17 @@ class Ros2ControlJointUndefined(RobotRule):
                     command = element.find("command_interface")
                     if command is not None and joints[name].type == "fixed":
                         message = f"<ros2_control> `{block.name}` commands the fixed joint `{name}`"
-                        yield self.at(model, command, message, joint=name, severity="warning", kind="fixed")
+                        place, is_wrong = type_at(model, joints[name])
+                        yield self.at(
+                            model,
+                            command,
+                            message,
+                            joint=name,
+                            severity="warning",
+                            kind="fixed",
+                            other=place,
+                            is_other_wrong=is_wrong,
+                        )
                     elif joints[name].type in UNDRIVEN and runs_ros2_control(model.robot):
                         message = f"<ros2_control> `{block.name}` names the {joints[name].type} joint `{name}`"
                         yield self.at(model, element, message, attribute="name", joint=name, severity="note")

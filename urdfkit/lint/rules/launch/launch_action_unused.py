@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
@@ -50,6 +51,7 @@ class LaunchActionUnused(RobotRule):
         """Yield a finding for each action that is not used."""
         import re
 
+        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import first_slip
         from urdfkit.lint.facts.launch.python_names import python_files, undefined
 
@@ -61,7 +63,14 @@ class LaunchActionUnused(RobotRule):
                     continue
                 unknown = undefined(tree) if unknown is None else unknown
                 if first_slip(name, unknown) is None:
-                    yield self._finding(source, node, kind, name in targets)
+                    found = self._finding(source, node, kind, name in targets)
+                    again = _started_again(tree, created) if name in targets else None
+                    if again is not None:
+                        other = source.span(*place(source, again))
+                        help = f"`{again.id}` is started twice"
+                        details = {"other": other, "is_other_wrong": True, "cause": name, "help": help}
+                        found = Finding(**{**found.__dict__, **details})
+                    yield found
 
     def _finding(self, source: Source, node: ast.Name, kind: str, is_target: bool) -> Finding:
         from urdfkit.lint.facts.control.launch_package_paths import place
@@ -70,6 +79,17 @@ class LaunchActionUnused(RobotRule):
         effect = "the argument is not declared" if kind == "DeclareLaunchArgument" else "it has no effect"
         message = f"{kind} `{node.id}` {only}is not added to the launch description: {effect}"
         return self.at_span(source.span(*place(source, node)), message)
+
+
+def _started_again(tree: ast.Module, created: Mapping[str, object]) -> ast.Name | None:
+    """Return the one action in the list of an event handler that is in the launch description too."""
+    lists = [node for node in ast.walk(tree) if isinstance(node, ast.List)]
+    words = [word.value for node in ast.walk(tree) if isinstance(node, ast.Call) for word in node.keywords]
+    handled = [each for each in words if isinstance(each, ast.List)]
+    inside = [item for each in handled for item in each.elts if isinstance(item, ast.Name)]
+    outside = {item.id for each in lists if each not in handled for item in each.elts if isinstance(item, ast.Name)}
+    again = [item for item in inside if item.id in outside and item.id in created]
+    return again[0] if len(again) == 1 else None
 
 
 def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str], set[str]]:

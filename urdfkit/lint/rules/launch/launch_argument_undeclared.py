@@ -100,7 +100,28 @@ class LaunchArgumentUndeclared(RobotRule):
             return
         span = file.source.span(use.start, use.end)
         message = f"launch argument `{use.name}` is not declared; the file fails unless an including file has it"
+        unused = _unused(file, use.name, model)
+        if unused is not None:
+            other = file.source.span(unused.start, unused.end)
+            message = f"launch argument `{unused.name}` is declared but not used, and `{use.name}` is not declared"
+            details = {"other": other, "is_other_wrong": True, "cause": f"argument {use.name}"}
+            help = f"declare `{use.name}` in place of it, or as well"
+            yield self.at_span(span, message, severity="warning", help=help, **details)
+            return
         yield self.at_span(span, message, severity="warning", help="declare the argument, with a default")
+
+
+def _unused(file: LaunchActions, name: str, model: Model) -> Named | None:
+    """Return the one declaration that no launch file uses or passes, if one that includes this file passes a name."""
+    from urdfkit.lint.facts.launch.actions import launch_files
+
+    files = list(launch_files(model))
+    passed = {word.name for each in files for call in each.includes for word in call.passed}
+    used = {word.name for word, _ in file.used} | passed
+    unused = [declaration for each, declaration in file.declared.items() if each not in used]
+    if len(unused) != 1 or name not in passed:
+        return None
+    return unused[0].name
 
 
 def _is_rarer(name: str, other: str, file: LaunchActions) -> bool:

@@ -43,5 +43,7 @@ class NodeArgumentsMissing(RobotRule):
 
         for source, place, message in (*idle_managers(model), *paused_simulations(model)):
             yield self.at_span(source.span(*place), message, severity="warning")
-        for source, place, message in (*nodes_without_arguments(model), *maps_without_file(model)):
+        for source, place, message in maps_without_file(model):
             yield self.at_span(source.span(*place), message)
+        for source, place, message, names in nodes_without_arguments(model):
+            yield self.at_span(source.span(*place), message, names=names)

@@ -51,6 +51,7 @@ class SrdfAdjacentPairMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each pair of adjacent links that is missing."""
         from urdfkit.lint.facts.moveit.srdf import near_links, semantics_of, severity_for
+        from urdfkit.lint.facts.root_cause import parent_at
 
         if model.is_incomplete:
             return
@@ -88,7 +89,9 @@ class SrdfAdjacentPairMissing(RobotRule):
                 names = tuple({*pair, *(confused or ())})
                 written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
                 severity = severity_for(root, model)
-                yield self.at(model, near, message, help=f"add {written}", severity=severity, names=names)
+                wrong_side = parent_at(model, joint) if confused is not None else None
+                help = f"add {written}"
+                yield self.at(model, near, message, help=help, severity=severity, names=names, other=wrong_side)
 
 
 def _adjacent(model: Model, solid: set[str], disabled: dict[frozenset[str], Element]) -> tuple[list[Pair], list[Pair]]:

@@ -81,6 +81,7 @@ class SrdfElementUnknown(RobotRule):
     def _reason(self, pair: Element, model: Model) -> Findings:
         """Yield a finding for a disabled pair with a misspelt or wrong reason."""
         from urdfkit.lint.facts.moveit.srdf import near_links
+        from urdfkit.lint.facts.root_cause import parent_at
         from urdfkit.lint.fix_builders import nearest
 
         reason = pair.get("reason") or ""
@@ -100,5 +101,9 @@ class SrdfElementUnknown(RobotRule):
             return
         elif other not in near_links(one, model):
             message = f"the reason is `Adjacent`, but several joints separate links `{one}` and `{other}`"
-            names = (one, other)
-            yield self.at(model, pair, message, attribute="reason", severity="note", kind="reason", names=names)
+            robot = model.robot
+            last = next((joint for joint in reversed(robot.joints) if joint.child in (one, other)), None)
+            place, names = parent_at(model, last), (one, other)
+            yield self.at(
+                model, pair, message, attribute="reason", severity="note", kind="reason", names=names, other=place
+            )

@@ -116,6 +116,7 @@ class SrdfGroupInconsistent(RobotRule):
         """Yield a finding for a parent link that moving joints separate from the group of an end effector."""
         from urdfkit.description.urdf.attached_bodies import AttachedBodies
         from urdfkit.lint.facts.moveit.srdf import joints_of
+        from urdfkit.lint.facts.root_cause import parent_at
 
         robot, group, parent = model.robot, effector.get("group") or "", effector.get("parent_link") or ""
         members = [
@@ -129,7 +130,17 @@ class SrdfGroupInconsistent(RobotRule):
             message = f"parent link `{parent}` of end effector `{effector.get('name')}` does not carry group `{group}`"
             help = f"write `{carriers[0]}`, or a link that is fixed to it"
             names = (parent, *carriers, *sorted(inside))
-            yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity, names=names)
+            other = parent_at(model, next(iter(robot.parents_of.get(parent, ())), None))
+            yield self.at(
+                model,
+                effector,
+                message,
+                attribute="parent_link",
+                help=help,
+                severity=severity,
+                names=names,
+                other=other,
+            )
 
     def _passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for each passive joint that a mimic joint follows, or that a MoveIt controller moves."""

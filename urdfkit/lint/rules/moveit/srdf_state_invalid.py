@@ -51,6 +51,7 @@ class SrdfStateInvalid(RobotRule):
         """Yield a finding for each invalid value, and for joints that are missing in a state or in its group."""
         from urdfkit.lint.facts.moveit.reversed_limits import reversed_limits
         from urdfkit.lint.facts.moveit.srdf import fits, joints_of, semantics_of, severity_for
+        from urdfkit.lint.facts.root_cause import parent_at
         from urdfkit.lint.fix_builders import nearest
 
         robot = model.robot
@@ -86,8 +87,22 @@ class SrdfStateInvalid(RobotRule):
                     yield self.at(model, state, message, severity=severity)
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
                     message = cause = f"joint `{value.get('name')}` is not in group `{group}`"
-                    name = value.get("name")
-                    yield self.at(model, value, message, attribute="name", joint=name, severity=severity, cause=cause)
+                    name = value.get("name") or ""
+                    branch = [each for each in members if name in robot.joint_by_name and each in robot.joint_by_name]
+                    branch = [
+                        each for each in branch if robot.joint_by_name[each].parent == robot.joint_by_name[name].parent
+                    ]
+                    other = parent_at(model, robot.joint_by_name[branch[0]]) if len(branch) == 1 else None
+                    yield self.at(
+                        model,
+                        value,
+                        message,
+                        attribute="name",
+                        joint=name,
+                        severity=severity,
+                        cause=cause,
+                        other=other,
+                    )
                 valued = {value.get("name") for value in values}
                 missing = [
                     joint.name
@@ -99,7 +114,7 @@ class SrdfStateInvalid(RobotRule):
                 missing = [name for name in missing if nearest(name, unknown, cutoff=0.7) is None]  # it is misspelt
                 if foreign and len(foreign) == len(values):
                     continue  # The state is for another group.
-                if missing:
+                if len(missing) > len(foreign):  # otherwise the foreign joints stand for the missing ones
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
                     message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"
                     yield self.at(model, state, message, joint=missing[0], severity=severity)
@@ -113,7 +128,8 @@ class SrdfStateInvalid(RobotRule):
             states = [state for state in root.find_all("group_state") if state.get("group") == name]
             valued = [{value.get("name") for value in state.find_all("joint")} for state in states]
             listed = {each.get("name") for each in group.find_all("joint")}
-            for element in group.find_all("joint"):
+            is_complete = listed <= model.robot.joint_by_name.keys()
+            for element in group.find_all("joint") if is_complete else ():  # an undefined joint may be misspelt
                 joint = element.get("name") or ""
                 for other in mirrored(joint):
                     is_other = other in model.robot.joint_by_name and other not in listed
@@ -122,13 +138,27 @@ class SrdfStateInvalid(RobotRule):
                         yield name, (element, message)
 
     def _value(self, value: Element, model: Model, severity: Severity | None) -> Findings:
+        from urdfkit.lint.facts.root_cause import type_at
+
         name, text = value.get("name") or "", value.get("value")
         joint = model.robot.joint_by_name.get(name)
         if joint is None or text is None:
             return
 
         def found(kind: str, message: str, help: str | None = None) -> Findings:
-            yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity, kind=kind)
+            of_type = type_at(model, joint) if joint.type == "fixed" else (None, False)
+            yield self.at(
+                model,
+                value,
+                message,
+                attribute="value",
+                joint=name,
+                help=help,
+                severity=severity,
+                kind=kind,
+                other=of_type[0],
+                is_other_wrong=of_type[1],
+            )
 
         try:
             numbers = [float(word) for word in text.split()]

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
@@ -95,8 +96,26 @@ class BridgeMisspelt(RobotRule):
             near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
             message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
             yield self.at_span(source.span(start, start + len(world)), message)
+        below: dict[str, set[str]] = {}
+        for _, bridge in bridges:
+            space, _, last = (bridge.topic.name if bridge.topic is not None else "").strip("/").rpartition("/")
+            below.setdefault(space, set()).add(last)
         for source, reference, message in _topic_defects(bridges, model):
-            yield self._at(source, reference, message, "topic")
+            found = self._at(source, reference, message, "topic")
+            space = reference.name.strip("/").rpartition("/")[0]
+            sensor = _plain_camera(space, model) if below.get(space, set()) & {"depth_image", "points"} else None
+            if sensor is not None:
+                place = model.span(sensor.origin.position, "type")
+                text = f"a sensor of type `camera` has no topic `{reference.name}`, which a bridge reads"
+                details = {"other": place, "is_other_wrong": True, "cause": "camera", "message": text, "fix": None}
+                help = f"write `rgbd_camera`, which has topics below `{space}`"
+                found = Finding(**{**found.__dict__, **details, "help": help, "suggestion": None})
+            elif (named := _misnamed_sensor(source, reference, found.meant, model)) is not None:
+                place = model.span(named.origin.position)
+                text = f"a bridge reads `{reference.name}`, but this sensor publishes on `{found.meant}`"
+                details = {"other": place, "is_other_wrong": True, "cause": "topic", "message": text}
+                found = Finding(**{**found.__dict__, **details, "suggestion": None})
+            yield found
 
     def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
         span = source.span(reference.start, reference.end)
@@ -219,6 +238,35 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
                 near = free[0] if len(free) == 1 else None
                 what = Suggestion(near) if near is not None else f"; it publishes {_listed(free)}"
                 yield source, bridge.topic, f"the robot has no Gazebo topic `{bridge.topic.name}`" + what
+
+
+def _plain_camera(topic: str, model: Model) -> Element | None:
+    """Return the sensor of type ``camera`` with this topic, below which only cameras with depth have topics."""
+    for block in model.robot.gazebo:
+        for sensor in block.sensors:
+            written = sensor.element.find("topic")
+            if sensor.type == "camera" and written is not None and (written.text or "").strip().strip("/") == topic:
+                return sensor.element
+    return None
+
+
+def _misnamed_sensor(source: Source, reference: Named, meant: str, model: Model) -> Element | None:
+    """Return the element that names another topic than a bridge with equal names on both sides; None without one.
+
+    A slip in the bridge would make its names differ.
+    """
+    from urdfkit.lint.facts.control.yaml_tree import documents, yamls
+    from urdfkit.lint.facts.gazebo.sensor_topics import published
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    entries = [item for root in documents(source) for item in root.items] if source in yamls(model) else []
+    used, named = reference.name.strip("/"), meant.strip("/")
+    for entry in entries if named and not is_slip(used, named) and not used.startswith(f"{named}/") else ():
+        gazebo, ros = entry.find("gz_topic_name") or entry.find("ign_topic_name"), entry.find("ros_topic_name")
+        if gazebo is not None and ros is not None and gazebo.text == ros.text == reference.name:
+            elements = [each.element for each in published(model) if each.topic.strip("/") == named]
+            return elements[0] if len(elements) == 1 and elements[0].tag == "topic" else None
+    return None
 
 
 def _type(bridge: Bridged) -> str:

@@ -1,5 +1,7 @@
 """K963 controller-interface-missing."""
 
+from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _REQUIRED_INTERFACES = {
@@ -77,26 +79,44 @@ class ControllerInterfaceMissing(RobotRule):
                     # Another file may contain the transmissions if the controller has none.
                     has_others = len(unprovided) < len(joints_of(source, controller_type))
                     severity = self.severity if has_others else "note"
-                    yield self.at_span(span, message, severity=severity, joint=unprovided[0])
+                    found = self.at_span(span, message, severity=severity, joint=unprovided[0])
+                    at_joint = model.span(model.robot.joint_by_name[unprovided[0]].element.origin.position)
+                    yield Finding(**{**found.__dict__, "other": at_joint, "is_other_wrong": has_others})
                 if required is None or not missing or any("$" in name for name in provided[missing[0]]):
                     continue
                 if any(is_misspelt(name) for name in provided[missing[0]]):
                     continue
                 line = source.span(controller_type.start, controller_type.start).line
-                kinds = [(one.name, one.group.find("type")) for one in settings(source)]
+                kinds = [(one.name, one.group.find("type"), one.group) for one in settings(source)]
                 others = ", ".join(f"`{name}`" for name in sorted(provided[missing[0]]))
                 call = None
-                if controller_type.name.partition("/")[0] in _OF_WHEELS:
+                own = next((group for _, kind, group in kinds if kind is not None and kind.line == line), None)
+                is_consistent = (
+                    len(missing) == 1 and own is not None and _has_gains_of_its_type(controller_type.name, own)
+                )
+                if controller_type.name.partition("/")[0] in _OF_WHEELS or is_consistent:
                     parts = [(each.name, each.element) for one in model.robot.transmissions for each in one.joints]
                     right = [element for name, element in parts if name not in missing]
-                    elements = (element for name, element in parts if name == missing[0])
+                    elements = [element for name, element in parts if name == missing[0]]
                     call = next((place for each in elements if (place := call_of(each, right)) is not None), None)
-                where = source.span(controller_type.start, controller_type.end)
+                    if call is None and is_consistent:
+                        inner = elements[0].find("hardwareInterface") if elements else None
+                        call = inner.origin.position if inner is not None else None
                 yield self.at_span(
-                    where if call is None else model.span(call),
+                    source.span(controller_type.start, controller_type.end),
                     f"`{controller_type.name}` requires the {required} of joint `{missing[0]}`, "
                     f"whose transmission provides {others}",
                     joint=missing[0],
                     help="change the controller type or the <hardwareInterface>",
-                    names=tuple(name for name, kind in kinds if kind is not None and kind.line == line),
+                    names=tuple(name for name, kind, _ in kinds if kind is not None and kind.line == line),
+                    other=None if call is None else model.span(call),
+                    is_other_wrong=call is not None,
+                    cause="" if call is None else f"joint {missing[0]}",
                 )
+
+
+def _has_gains_of_its_type(kind: str, group: Node) -> bool:
+    """Return whether a trajectory controller has ``gains`` exactly if its type needs them: the type is right."""
+    space, _, name = kind.partition("/")
+    needs_gains = space in ("effort_controllers", "velocity_controllers")
+    return name == "JointTrajectoryController" and (group.find("gains") is not None) is needs_gains

@@ -98,7 +98,12 @@ class HardwareInterfaceLacking(RobotRule):
                 unused.setdefault(others[0].origin.position, []).append((controller, finding, others[0]))
         merged: set[int] = set()
         for uses in unused.values():
-            if len({controller for controller, _, _ in uses}) > 1:
+            joint = model.robot.joint_by_name.get(uses[0][1].joint or "")
+            # A joint that turns without limits is seldom commanded by its position.
+            is_turning = joint is not None and joint.type == "continuous" and uses[0][2].get("name") == "position"
+            if len({controller for controller, _, _ in uses}) > 1 or (
+                is_turning and uses[0][1].kind.startswith("command")
+            ):
                 merged |= {id(finding) for _, finding, _ in uses}
                 _, finding, element = uses[0]
                 joints = tuple(each.joint for _, each, _ in uses if each.joint)

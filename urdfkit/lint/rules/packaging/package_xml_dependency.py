@@ -52,7 +52,8 @@ class PackageXmlDependency(RobotRule):
     A build or test dependency is not sufficient for launch files. A dependency on a metapackage, such as
     ``navigation2``, includes the packages that it depends on. A name that misspells a dependency, a package of the
     workspace or a common package by one letter is reported as an error wherever it occurs. Every other package is
-    reported once.
+    reported once, in package.xml after the dependency that it follows, with the places that use it. A comment that
+    suppresses the rule at one of these places suppresses that use.
 
     Test folders, optional launch files of the MoveIt Setup Assistant, and dependencies that are commented out in
     package.xml are not checked.
@@ -83,7 +84,20 @@ class PackageXmlDependency(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding at the first use of each package without a dependency."""
+        """Yield a finding for each use of a package without a dependency, with its place in package.xml."""
+        from urdfkit.lint.facts.plugin_packages import place_of_dependency
+
+        for finding in self._uses(model):
+            name = finding.names[0] if finding.help is not None and finding.help.startswith("add <") else ""
+            place = place_of_dependency(name, finding.file, model, finding.kind == "own") if name else None
+            if place is None:
+                yield finding
+            else:
+                cause = {"other": place, "is_other_wrong": True, "cause": f"package {name}"}
+                yield Finding(**{**finding.__dict__, **cause})
+
+    def _uses(self, model: Model) -> Findings:
+        """Yield a finding at each use of a package without a dependency; where code does not use it, at the first."""
         package = model.package
         if package is None:
             return
@@ -113,10 +127,7 @@ class PackageXmlDependency(RobotRule):
                     yield self.at_span(span, message, names=(name, own))
                     continue
                 finding = self._missing(name, source, match.start(), match.end(), {*near, *declared})
-                if finding.severity == self.severity:
-                    declared.add(name)
-                    yield finding
-                elif name not in unknown:  # xacro has no other finding for it
+                if finding.severity == self.severity or name not in unknown:  # xacro has no other finding for it
                     yield finding
         folders = {package: declared}
         yield from self._check_launch_files(model, folders)
@@ -151,10 +162,7 @@ class PackageXmlDependency(RobotRule):
             for name, start, end in () if is_own else (*packages_used(source), *packages_imported(source, near)):
                 yield from self._not_at_run_time(name, package, model, reported)
                 if name not in declared[package] | disabled and not is_in_metapackage(name, declared[package]):
-                    finding = self._missing(name, source, start, end, near)
-                    if finding.severity == self.severity:
-                        declared[package].add(name)
-                    yield finding
+                    yield self._missing(name, source, start, end, near)
 
     def _check_controllers(self, model: Model) -> Findings:
         """Yield a finding for each package of a controller in YAML that none of the related packages depends on."""
@@ -186,7 +194,7 @@ class PackageXmlDependency(RobotRule):
                     span = span_of(source, controller.kind)
                     message = f"missing dependency on `{name}`, whose controller `{controller.name}` is"
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                    yield self.at_span(span, message, help=help)
+                    yield self.at_span(span, message, help=help, names=(name,))
 
     def _check_navigation_plugins(self, model: Model) -> Findings:
         """Yield a finding for each package of Nav2 plugins on which none depends, unlike on those of the others."""
@@ -245,7 +253,7 @@ class PackageXmlDependency(RobotRule):
             span = use.source.span(use.start, use.end)
             message = f"missing dependency on `{use.package}`, {use.use}"
             help = f"add <exec_depend>{use.package}</exec_depend> to package.xml"
-            yield self.at_span(span, message, help=help, names=(use.package,))
+            yield self.at_span(span, message, help=help, names=(use.package,), kind="own" if use.is_own else "")
 
     def _not_at_run_time(self, name: str, package: Path, model: Model, reported: set[tuple[Path, str]]) -> Findings:
         """Yield a finding for a package that launch files use, but whose dependency is for builds or tests only."""
@@ -279,7 +287,7 @@ class PackageXmlDependency(RobotRule):
                 span = source.span(reference.start, reference.end)
                 message = f"missing dependency on `{name}`, which has the controller type `{reference.name}`"
                 help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                yield self.at_span(span, message, help=help, kind="controller type")
+                yield self.at_span(span, message, help=help, kind="controller type", names=(name,))
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.launch.ros_version import reads_version
@@ -294,6 +302,7 @@ class PackageXmlDependency(RobotRule):
             span,
             f"missing dependency on `{name}`",
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
+            kind="own",
             names=(name,),
         )
 

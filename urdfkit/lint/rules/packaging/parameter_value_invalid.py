@@ -76,11 +76,12 @@ class ParameterValueInvalid(RobotRule):
             for error in invalid_parameters(settings, ros):
                 place = error.position
                 if place is not None and (place.file, place.line) not in places and place.file not in unread:
-                    yield self.at(model, place, error.message)
+                    yield self.at(model, place, error.message, kind="incomplete")
 
     def _in_yaml(self, model: Model, unread: set[str]) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.controller_needs import unmet_needs
+        from urdfkit.lint.facts.control.controller_settings import settings
         from urdfkit.lint.facts.control.parameter_values import (
             contradictions,
             incomplete_controllers,
@@ -133,8 +134,12 @@ class ParameterValueInvalid(RobotRule):
                     yield self.at_span(span_of(source, place), message, names=lacking, kind=kind)
             if is_of_controllers:
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
+                # In ROS 1 the type, next to the parameters that it needs.
+                of_ros1 = settings(source) if PARAMETERS not in source.text else ()
+                types = {one.name: one.group.find("type") for one in of_ros1}
                 for place, message in incomplete:
-                    yield self.at_span(span_of(source, place), message, names=(place.text,), kind="incomplete")
+                    span = span_of(source, types.get(place.text) or place)
+                    yield self.at_span(span, message, names=(place.text,), kind="incomplete")
                 for place, message in (*contradictions(source, model.robot), *unmet_needs(source, model)):
                     yield self.at_span(span_of(source, place), message)
 
@@ -173,7 +178,10 @@ def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
         if joints is not None and is_flat and len(joints.items) != len(value.items):
             yield key, f"`positions` has {len(value.items)} values, but `joints` has {len(joints.items)} names"
         if re.fullmatch(_SENSOR_CONFIG, key.text) and value.kind == "list" and len(value.items) != 15:
-            yield _odd_row(value) or key, f"`{key.text}` has {len(value.items)} values; robot_localization requires 15"
+            yield (
+                _odd_row(value) or _last_row(value) or key,
+                f"`{key.text}` has {len(value.items)} values; robot_localization requires 15",
+            )
 
 
 def _odd_row(value: Node) -> Node | None:
@@ -183,6 +191,12 @@ def _odd_row(value: Node) -> Node | None:
     lengths = Counter(item.line for item in value.items)
     odd = [line for line, count in lengths.items() if count != 3]
     return next(item for item in value.items if item.line == odd[0]) if len(odd) == 1 < len(lengths) else None
+
+
+def _last_row(value: Node) -> Node | None:
+    """Return the first value of the last line of a list with several lines."""
+    lines = [item.line for item in value.items]
+    return next((item for item in value.items if item.line == lines[-1] != lines[0]), None)
 
 
 def _has_parameters(node: Node) -> bool:

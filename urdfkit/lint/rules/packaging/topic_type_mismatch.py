@@ -41,5 +41,9 @@ class TopicTypeMismatch(RobotRule):
         """Yield a finding for each parameter with a topic or a flag of another type."""
         from urdfkit.lint.facts.topics.message_types import mistyped, unequal_stamps
 
-        for span, message in (*mistyped(model), *unequal_stamps(model)):
+        for span, message, element, is_wrong in mistyped(model):
+            place = model.span(element.origin.position) if element is not None else None
+            cause = "type" if is_wrong else ""
+            yield self.at_span(span, message, other=place, is_other_wrong=is_wrong, cause=cause)
+        for span, message in unequal_stamps(model):
             yield self.at_span(span, message)

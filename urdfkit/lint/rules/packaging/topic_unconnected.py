@@ -1,5 +1,6 @@
 """K980 topic-unconnected."""
 
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -44,6 +45,8 @@ class TopicUnconnected(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.loops import published_together, self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
+        from urdfkit.lint.facts.topics.node_topics import published_commands
+        from urdfkit.lint.facts.topics.other_sides import other_side
         from urdfkit.lint.facts.topics.own_remappings import misnamed_in_code
         from urdfkit.lint.facts.topics.velocity_commands import (
             misnamed_remappings,
@@ -54,14 +57,20 @@ class TopicUnconnected(RobotRule):
         loops = list(self_readers(model))
         # Otherwise the commands that the loop leaves without a reader are its consequence.
         unread = unread_commands(model) if not loops else ()
-        for source, name, message in (*misnamed_remappings(model), *misnamed_in_code(model), *loops, *unread):
-            span = source.span(name.start, name.end)
-            yield self.at_span(span, message)
+        misnamed = (*misnamed_remappings(model), *misnamed_in_code(model))
+        for kind, defects in (("remapping", misnamed), ("loop", loops), ("unread", unread)):
+            for source, name, message in defects:
+                found = self.at_span(source.span(name.start, name.end), message, kind=kind)
+                other = other_side(source, name, model) if kind == "unread" else None
+                names = (name.name.strip("/"), published_commands().get(name.name, ""))
+                cause = name.name if other is not None else ""
+                details = {"names": names, "other": other, "is_other_wrong": other is not None, "cause": cause}
+                yield Finding(**{**found.__dict__, **details})
         for node, message, _ in published_together(model):
             if node.place is not None:
                 yield self.at_span(node.source.span(*node.place), message)
-        for span, message in separated_nodes(model):
-            yield self.at_span(span, message, kind="namespace")
+        for span, message, topic in separated_nodes(model):
+            yield self.at_span(span, message, kind="namespace", names=(topic,))
         for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
         for source, value, near, message in unfed_mux_topics(model):
