@@ -39,6 +39,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("E014", "attribute"), "line", ("E009", "")),
     (("E014", "attribute"), "line", ("E007", "")),
     (("G602", ""), "line", ("K956", "")),
+    (("I518", ""), "name", ("I506", "")),
     (("J408", ""), "line", ("S905", "")),
     (("K956", "misspelt"), "line", ("L104", "name")),
     (("K962", ""), "line", ("K965", "")),
