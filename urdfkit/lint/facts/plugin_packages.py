@@ -105,8 +105,8 @@ _DEPENDENCY = r"<(exec_depend|run_depend|depend)\b[^>]*>\s*([^<\s]+)\s*</\1>"
 def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool) -> Span | None:
     """Return the element in package.xml after which a dependency is to be added; None without a package.xml.
 
-    It is added to the package that uses it. Where any package of the robot may have it and that one depends on no
-    package of the same family, such as ``gazebo_ros`` and ``gazebo_plugins``, it is added to one that does.
+    It is added to the package that uses it. Where any package of the robot may have it, a package is preferred that
+    depends on one of the same family, such as ``gazebo_ros`` and ``gazebo_plugins``.
 
     Args:
         name: the missing package.

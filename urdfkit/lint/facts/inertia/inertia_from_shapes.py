@@ -18,7 +18,7 @@ def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | No
 
     Uses the collision shapes, or the visual shapes of a link without collision shapes. Overlaps count twice; meshes
     are replaced by their bounding boxes. The tensor is about the centre of mass of the shapes. None if they have no
-    volume.
+    volume, or the mass is so small that a part of it is zero.
     """
     count = len(link.visuals)
     shapes = extent.shapes[count:] or extent.shapes[:count]
@@ -32,6 +32,8 @@ def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | No
     for (shape, pose), volume in zip(shapes, volumes, strict=True):
         share = mass * volume / sum(volumes)
         parts.append((pose, share, principal_moments(shape, share)))
+    if not sum(share for _, share, _ in parts):
+        return None
     frame = link.inertial.origin.rpy if link.inertial is not None else (0.0, 0.0, 0.0)
     return rotated_tensor(combined(parts)[2], rotation_of(frame))
 

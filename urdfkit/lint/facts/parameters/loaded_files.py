@@ -59,14 +59,21 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         is_of_costmaps = tag.parent is not None and tag.parent.name == "node" and _program(tag.parent) == "move_base"
         if is_of_costmaps and (message := _unread_by_costmaps(parameters, _own_namespace(tag))) is not None:
             yield file, f"{name} " + message
-        for end, expected in _EXPECTED.items():
-            is_other = re.search(r"(?m)^[ \t]*[\w/]+[ \t]*:", text) and not any(word in text for word in expected)
-            if namespace.endswith(f"robot_description{end}") and is_other:
-                yield file, f"{name} has no `{expected[0]}`, which MoveIt reads from `robot_description{end}`"
+        if (end := _replaced(text, namespace)) is not None:
+            yield file, f"{name} has no `{_EXPECTED[end][0]}`, which MoveIt reads from `robot_description{end}`"
         is_elsewhere = re.search(r"(?:^|/)robot_description_\w+$", namespace) and not namespace.endswith("_kinematics")
         if is_elsewhere and "kinematics_solver:" in text:
             read = "`robot_description_kinematics`"
             yield file, f"MoveIt reads the solvers of {name} from {read}, not from `{namespace.rpartition('/')[2]}`"
+
+
+def _replaced(text: str, namespace: str) -> str | None:
+    """Return the end of the namespace of MoveIt whose parameters a file does not have, although it is loaded there."""
+    is_other = re.search(r"(?m)^[ \t]*[\w/]+[ \t]*:", text)
+    for end, expected in _EXPECTED.items() if is_other else ():
+        if namespace.endswith(f"robot_description{end}") and not any(word in text for word in expected):
+            return end
+    return None
 
 
 _FLAT = ("amcl", "gmapping", "joy", "robot_localization", "teleop_twist_joy", "twist_mux")
@@ -159,12 +166,23 @@ def unloaded_moveit_files(source: Source, model: Model) -> Defects:
         if tag.name != "node" or program is None or program.value != "move_group" or package is None:
             continue
         texts = [file.text for file in model.related_files.values() if file.file.endswith((".launch", ".xml"))]
+        replaced = {word for end in _replaced_by_others(model) for word in _EXPECTED[end]}
         for name, word in _OF_MOVE_GROUP.items():
             path = shown_path(package / "config" / name)
             parameters = model.related_files.get(path)
             is_used = parameters is not None and re.search(rf"(?m)^\s*{word}:", parameters.text)
-            if is_used and not any(name in text or "$(arg pipeline)_planning" in text for text in texts):
+            is_loaded = any(name in text or "$(arg pipeline)_planning" in text for text in texts)
+            if is_used and not is_loaded and word not in replaced:
                 yield program, f"no launch file loads {name}, which has parameters of `move_group`"
+
+
+def _replaced_by_others(model: Model) -> Iterator[str]:
+    """Yield the ends of the namespaces of MoveIt into which launch files load a wrong file, which is reported there."""
+    for tag in (tag for file in ros1_files(model) for tag in _tags(file)):
+        file = tag.attributes.get("file") if tag.name == "rosparam" and not _is_command(tag) else None
+        parameters = _read(file.value, model) if file is not None else None
+        if parameters is not None and (end := _replaced(uncommented(parameters), _namespace(tag))) is not None:
+            yield end
 
 
 _OF_MOVE_GROUP = {

@@ -112,7 +112,7 @@ class LaunchArgumentUndeclared(RobotRule):
 
 
 def _unused(file: LaunchActions, name: str, model: Model) -> Named | None:
-    """Return the one declaration that no launch file uses or passes, if one that includes this file passes a name."""
+    """Return the only declaration that is not used or passed, if a file that includes this file passes a name."""
     from urdfkit.lint.facts.launch.actions import launch_files
 
     files = list(launch_files(model))

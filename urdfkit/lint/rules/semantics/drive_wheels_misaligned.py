@@ -121,14 +121,10 @@ class DriveWheelsMisaligned(RobotRule):
         from urdfkit.lint.facts.macro_calls import equal_call
 
         joint, names = other.joint, (first.joint.name,)
-        call = (
-            equal_call(model, first.joint.element, joint.element)
-            if max(_distances(first, other)) < _MIN_DISTANCE
-            else None
-        )
+        is_misaligned = max(_distances(first, other)) >= _MIN_DISTANCE
+        call = None if is_misaligned else equal_call(model, first.joint.element, joint.element)
         place, attribute = (joint.element, "name") if call is None else (call, None)
-        is_apart = max(_distances(first, other)) >= _MIN_DISTANCE
-        wrong = joint.element.find("axis" if _are_opposite(first, other) else "origin") if is_apart else None
+        wrong = joint.element.find("axis" if _are_opposite(first, other) else "origin") if is_misaligned else None
         if wrong is not None:
             place, attribute = wrong, "xyz"
         found = self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
