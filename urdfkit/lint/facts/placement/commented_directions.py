@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Mapping
 
 from urdfkit.description.urdf.geometry import unit
 from urdfkit.description.urdf.robot import Joint, Vector
@@ -24,33 +24,41 @@ _OPPOSITE = -0.5
 """Cosine of the smallest angle between the stated direction and an opposite motion."""
 
 
-def contradicted_comment(joint: Joint, model: Model) -> str:
+def stated_directions(model: Model) -> dict[tuple[str, int], re.Match[str]]:
+    """Return the file and the place of each tag directly after a comment on a direction, and the words of the comment.
+
+    Between the comment and the tag there is only white space.
+    """
+    stated = {}
+    for file, source in model.expanded.sources.items():
+        for _, end, text in model.document(file).comments if _SIGN.search(source.text) else ():
+            if (found := _STATED.search(text)) is not None:
+                stated[file, end + len(source.text[end:]) - len(source.text[end:].lstrip())] = found
+    return stated
+
+
+def contradicted_comment(joint: Joint, model: Model, stated: Mapping[tuple[str, int], re.Match[str]]) -> str:
     """Return the words of the comment before a joint that its motion contradicts; empty if it contradicts none.
 
-    The comment is the last one before the joint, or before the macro call that makes the joint, with only white space
-    between. The motion is that of the centre of the shapes that the joint carries, with every joint at zero.
+    The comment is the last one before the joint, or before the macro call that makes the joint. The motion is that of
+    the centre of the shapes that the joint carries, with every joint at zero.
+
+    Args:
+        joint: a joint of the robot.
+        model: the robot.
+        stated: the result of `stated_directions`.
     """
-    stated = next((found for text in _comments(joint, model) if (found := _STATED.search(text)) is not None), None)
-    motion = _motion(joint, model) if stated is not None and not _LOOKS.search(stated[0]) else None
-    if stated is None or motion is None:
-        return ""
-    direction = next(each for each, word in zip(_DIRECTIONS, stated.groups()[1:], strict=True) if word)
-    sign = -1.0 if stated[1].lower() == "negative" else 1.0
-    along = sign * sum(a * b for a, b in zip(motion, direction, strict=True))
-    return " ".join(stated[0].split()) if along < _OPPOSITE else ""
-
-
-def _comments(joint: Joint, model: Model) -> Iterator[str]:
-    """Yield the comments directly before the joint and before its macro call."""
     origin = joint.element.origin
-    for position in (origin.position, *(call.position for call in origin.expansions[:1])):
-        source = model.expanded.sources.get(position.file)
-        if source is None or not _SIGN.search(source.text):
-            continue
-        tag, document = model.tag(position), model.document(position.file)
-        for start, end, text in document.comments if tag is not None else ():
-            if tag is not None and start < tag.start and not source.text[end : tag.start].strip():
-                yield text
+    positions = (origin.position, *(call.position for call in origin.expansions[:1]))
+    places = [(at.file, tag.start) for at in positions if (tag := model.tag(at)) is not None]
+    words = next((stated[place] for place in places if place in stated), None)
+    motion = _motion(joint, model) if words is not None and not _LOOKS.search(words[0]) else None
+    if words is None or motion is None:
+        return ""
+    direction = next(each for each, word in zip(_DIRECTIONS, words.groups()[1:], strict=True) if word)
+    sign = -1.0 if words[1].lower() == "negative" else 1.0
+    along = sign * sum(a * b for a, b in zip(motion, direction, strict=True))
+    return " ".join(words[0].split()) if along < _OPPOSITE else ""
 
 
 def _motion(joint: Joint, model: Model) -> Vector | None:

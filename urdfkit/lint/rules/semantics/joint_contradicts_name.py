@@ -4,7 +4,7 @@ import re
 
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.placement.commented_directions import contradicted_comment
+from urdfkit.lint.facts.placement.commented_directions import contradicted_comment, stated_directions
 from urdfkit.lint.facts.placement.joint_axes import axis_in_root
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -75,11 +75,12 @@ class JointContradictsName(RobotRule):
         """Yield a finding for each joint that moves otherwise than its name states."""
         if model.is_incomplete:
             return
+        stated = stated_directions(model)
         for joint in model.robot.joints:
             if not joint.is_movable or joint.child not in model.robot.link_by_name:
                 continue
             fault = None if _OTHER.search(joint.name) else _fault(joint, model)
-            if fault is None and (words := contradicted_comment(joint, model)):
+            if stated and fault is None and (words := contradicted_comment(joint, model, stated)):
                 element = joint.element.find("axis") or joint.element
                 message = f"joint `{joint.name}` moves in the opposite direction of its comment, `{words}`"
                 help = "check the signs of <axis> and of the rpy of <origin>, or correct the comment"
