@@ -8,4 +8,5 @@ def generate_launch_description():
         Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[description]),  # <!-- expect: L103 -->
         Node(package="controller_manager", executable="controller_group", arguments=["arm"]),  # <!-- expect: L103 -->
         Node(package="robot_localization", executable="ekf_localization_node"),  # <!-- expect: L103 -->
+        Node(package="gazebo_ros", executable="create", arguments=["-entity", "cart"]),  # <!-- expect: L103 -->
     ])

@@ -11,8 +11,9 @@ _RENAMED = {
     ("robot_localization", "ekf_localization_node"): "ekf_node",
     ("robot_localization", "ukf_localization_node"): "ukf_node",
     ("ros_gz_sim", "spawn_entity.py"): "create",
+    ("gazebo_ros", "create"): "spawn_entity.py",
 }
-"""Package and executable of older releases or Gazebo Classic → the executable that replaces it."""
+"""Package and executable of older releases or the other Gazebo → the executable of this package in its place."""
 
 
 class ExecutableUnknown(RobotRule):
