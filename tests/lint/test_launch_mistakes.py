@@ -430,3 +430,46 @@ def test_the_package_of_a_node_in_yaml_is_a_dependency(tmp_path, needed):
         (one.file.rpartition("/")[2], one.line) for each in lint(cart) if each.code == "K956" for one in each.related
     ]
     assert places == ([] if needed else [("bridge.launch.yaml", 3)])
+
+
+SERVERS = """<launch>
+  <arg name="map"/>
+  <arg name="names" default="map_server"/>
+  <node pkg="nav2_map_server" exec="map_server" name="map_server">
+    <param name="yaml_filename" value="$(var map)"/>
+  </node>
+  <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
+  <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
+    <param name="autostart" value="true"/>
+    {}
+  </node>
+{}</launch>
+"""
+SECOND = """  <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="second">
+    <param name="node_names" value="{}"/>
+  </node>
+"""
+UNLISTED = "no lifecycle manager of this file lists the node `amcl`, so it is never activated"
+
+
+@pytest.mark.parametrize(
+    ("names", "more", "message"),
+    [
+        ('<param name="node_names" value="map_server" value-sep=","/>', "", UNLISTED),
+        ("""<param name="node_names" value="['map_server']"/>""", "", UNLISTED),
+        ('<param name="node_names" value="map_server,amcl" value-sep=","/>', "", None),
+        ("""<param name="node_names" value="['map_server', 'amcl']"/>""", "", None),
+        ('<param name="node_names" value="$(var names)" value-sep=","/>', "", None),
+        ("""<param name="node_names" value="['map_server']"/>""", SECOND.format("[amcl]"), None),
+        ("""<param name="node_names" value="['map_server']"/>""", SECOND.format("[$(var names)]"), None),
+        (
+            '<param name="node_names" value="map_server,amlc" value-sep=","/>',
+            "",
+            "no node is called `amlc`; did you mean `amcl`?",
+        ),
+    ],
+)
+def test_names_of_managed_nodes_in_an_xml_launch_file(tmp_path, names, more, message):
+    cart = package(tmp_path / "cart", "ament_cmake", "nav2_map_server", "nav2_amcl", "nav2_lifecycle_manager")
+    write(cart / "launch/localization.launch.xml", SERVERS.format(names, more))
+    assert found(cart, "L117") == ([("localization.launch.xml", 10, message)] if message else [])

@@ -12,6 +12,7 @@ from urdfkit.description.packages.related_files import CODE, LAUNCH, neighbours
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import span_of, syntax_error
+from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.launch.executables import released
 from urdfkit.lint.facts.launch.node_parameters import parameters_of
 from urdfkit.lint.facts.navigation.sections import sections
@@ -46,8 +47,11 @@ _RENAMED = {"recoveries_server": "behavior_server"}
 _UNMANAGED = ("map_saver_server", "lifecycle_manager", "costmap_filter_info_server")
 """Nav2 programs that often start without a lifecycle manager of their own file."""
 
-_COMPUTED = r"\.(?:append|extend|insert)\(|\+=|OpaqueFunction|ComposableNode|nav2_bringup"
-"""Matches a Python launch file whose lists of nodes may be longer than they are written."""
+_COMPUTED = (
+    r"\.(?:append|extend|insert)\(|\+=|OpaqueFunction|ComposableNode|composable_node|nav2_bringup"
+    r"|<param\b(?=[^>]*\bnode_names\b)[^>]*\$"
+)
+"""Matches a launch file whose lists of nodes may be longer than they are written."""
 
 _SEVERAL = ("controller_manager", "moveit_ros_move_group", "moveit_servo", "gazebo_ros", "ros_gz_sim", "rviz2")
 """Packages whose processes contain nodes of further names."""
@@ -169,6 +173,12 @@ def _listed(source: Source) -> Iterator[tuple[str, Span]]:
         for _, group in (each for each in sections(source) if syntax_error(source) is None):
             names_node = group.find("node_names")
             yield from ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
+    for element in all_elements(source) if source.file.endswith(LAUNCH) and tree is None else ():
+        parts = element.attributes
+        if element.tag == "param" and "value" in parts and "name" in parts and parts["name"].name == "node_names":
+            text, start = parts["value"].name, parts["value"].start
+            for word in re.finditer(r"[\w/]+", text) if "$" not in text else ():
+                yield word[0], source.span(start + word.start(), start + word.end())
     reader = launch_reader(tree) if tree is not None else None
     for node in (each for each in ast.walk(tree) if isinstance(each, ast.Dict)) if tree is not None else ():
         for key, value in zip(node.keys, node.values, strict=True):
@@ -188,14 +198,12 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
         listed = lists[source.file]
         names_listed = {name for name, _ in listed}
         own = {node.program if not node.has_name else name_of_node(node) for node in nodes if node.source is source}
-        unlisted: list[tuple[str, Span]] = []
-        if source.file.endswith(".py"):
-            others = [other for other in managers if other is not source]
-            elsewhere = {name for other in others for name, _ in lists[other.file]}
-            if not any(_lists_more(other) for other in others):
-                unlisted = list(_unlisted(source, names_listed, elsewhere, nodes))
+        others = [other for other in managers if other is not source]
+        elsewhere = {name for other in others for name, _ in lists[other.file]}
+        is_whole = not any(_lists_more(other) for other in others)
+        unlisted = list(_unlisted(source, names_listed, elsewhere, nodes)) if is_whole else []
         unknown: list[tuple[str, Span]] = []
-        manages_slam = re.search(r"use_lifecycle_manager|LifecycleNode", source.text) is not None
+        manages_slam = re.search(r"use_lifecycle_manager|LifecycleNode|lifecycle_node", source.text) is not None
         for name, span in listed:
             if name == "slam_toolbox" and not manages_slam:
                 message = "`slam_toolbox` activates itself, unless `use_lifecycle_manager` is true; remove it here"
@@ -209,7 +217,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
                 and name in NODES - own - started
                 and len(names_listed & own) > 1
                 and not _lists_more(source)
-                and "IncludeLaunchDescription" not in source.text
+                and re.search(r"IncludeLaunchDescription|<include\b|- include:", source.text) is None
             ):
                 unknown.append((name, span))
         meant = {_RENAMED.get(name) for name, _ in unknown}
