@@ -87,3 +87,59 @@ def test_robots_that_skid_may_have_twice_the_separation(more: int, separation: f
     assert [message.partition(",")[0] for message in messages] == [
         f"`wheel_separation` is {separation} m"
     ] * is_reported
+
+
+CORNERS = [f"{axle}_{side}" for axle in ("front", "rear") for side in ("left", "right")]
+ROLLER = """<link name="roller"/><joint name="roller_joint" type="continuous"><parent link="front_left"/>
+<child link="roller"/><axis xyz="1 0 0"/></joint>"""
+
+
+@pytest.mark.parametrize(
+    ("settings", "joints", "more", "message"),
+    [
+        ("kinematics: {wheels_radius: 0.1}", CORNERS, "", None),
+        (
+            "kinematics: {wheels_radius: 0.2}",
+            CORNERS,
+            "",
+            "`wheels_radius` is 0.2 m, but the radius of the wheels is 0.1 m",
+        ),
+        (
+            "kinematics.wheels_radius: 0.2",
+            CORNERS,
+            "",
+            "`kinematics.wheels_radius` is 0.2 m, but the radius of the wheels is 0.1 m",
+        ),
+        ("kinematics: {wheels_radius: 0.2}", CORNERS, ROLLER, None),
+        (
+            "kinematics: {wheels_radius: 0.1}",
+            ["front_left", "front_right", "rear_left", "rear_left"],
+            "",
+            (
+                "`rear_left_joint` is the joint of `rear_right_wheel_command_joint_name` "
+                "and of `rear_left_wheel_command_joint_name`"
+            ),
+        ),
+        (
+            "kinematics: {wheels_radius: 0.1}",
+            ["front_right", "front_right", "rear_left", "rear_right"],
+            "",
+            (
+                "`front_right_joint` is the joint of `front_left_wheel_command_joint_name` "
+                "and of `front_right_wheel_command_joint_name`"
+            ),
+        ),
+    ],
+)
+def test_wheels_of_a_mecanum_controller(
+    settings: str, joints: list[str], more: str, message: str | None, write
+) -> None:
+    write("cart/package.xml", MANIFEST)
+    wheels = [WHEEL.format(name=name, xyz="0 0 0", axis="0 1 0").replace("visual", "collision") for name in CORNERS]
+    model = write("cart/urdf/cart.urdf", '<link name="base"/>' + "".join(wheels) + more)
+    names = zip(CORNERS, joints, strict=True)
+    lines = [f"    {corner}_wheel_command_joint_name: {joint}_joint\n" for corner, joint in names]
+    text = "drive:\n  ros__parameters:\n    type: mecanum_drive_controller/MecanumDriveController\n"
+    write("cart/config/drive.yaml", (text + "".join(lines) + f"    {settings}\n").encode())
+    messages = [finding.message for finding in lint(model, select=("K970", "K971"))]
+    assert messages == ([message] if message is not None else [])

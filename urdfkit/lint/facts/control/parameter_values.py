@@ -88,6 +88,9 @@ _FLOORS = {"min_velocity": "the robot cannot stop", "min_acceleration": "the rob
 """Lower limit → the effect of a positive value (diff_drive_controller, speed_limiter.cpp)."""
 
 _WHEELS = (("left_wheel_names", "right_wheel_names"), ("left_wheel", "right_wheel"))
+CORNER = "_wheel_command_joint_name"
+"""End of the parameters of ``mecanum_drive_controller`` (Jazzy to Rolling) that name the joint of one wheel."""
+
 Defects = Iterator[tuple[Node, str]]
 
 
@@ -148,6 +151,13 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         for item in opposite:
             if item.text and item.text in names:
                 yield item, f"wheel `{item.text}` is in `{left}` and in `{right}`"
+    corners = [name for name, value in values.items() if name.endswith(CORNER) and value.text]
+    for joint in {values[name].text: None for name in corners}:
+        named = [name for name in corners if values[name].text == joint]
+        wrong = next((name for name in named[::-1] if name.removesuffix(CORNER) not in joint), named[-1])
+        others = " and of ".join(f"`{name}`" for name in named if name != wrong)
+        if others:
+            yield values[wrong], f"`{joint}` is the joint of `{wrong}` and of {others}"
 
 
 def repeated_joints(node: Node) -> Iterator[tuple[Node, str, tuple[str, ...]]]:

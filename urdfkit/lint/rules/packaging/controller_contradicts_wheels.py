@@ -17,11 +17,11 @@ class ControllerContradictsWheels(RobotRule):
     """The parameters of a drive or steering controller contradict the wheels of the robot.
 
     ## What it does
-    Compares ``wheel_separation``, ``wheel_radius``, and the ``wheelbase`` and tracks of steering controllers in YAML
-    with the joints and shapes of the wheels. Also checks the positions of the left and right wheels: x points forward
-    and y left (REP 103). Deviations of up to 10 % are accepted. With several wheels on each side, up to twice the
-    separation is accepted, because the wheels slip when the robot turns. Wheels with meshes are not measured. A left
-    and a right wheel at the same place are reported.
+    Compares ``wheel_separation``, ``wheel_radius`` (``wheels_radius`` of mecanum controllers), and the ``wheelbase``
+    and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the positions of
+    the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are accepted. With
+    several wheels on each side, up to twice the separation is accepted, because the wheels slip when the robot turns.
+    Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -64,8 +64,8 @@ class ControllerContradictsWheels(RobotRule):
             yield from findings
 
     def _of_steering(self, model: Model) -> Findings:
-        """Yield a finding for the radius of driven wheels of a steering controller that differs from the robot's."""
-        from urdfkit.lint.facts.control.controller_wheels import steering_wheels
+        """Yield a finding for the wheel radius of a steering or mecanum controller that differs from the robot's."""
+        from urdfkit.lint.facts.control.controller_wheels import mecanum_wheels, steering_wheels
         from urdfkit.lint.facts.gazebo.steered_axles import axles, exchanged, wrong_lengths
 
         for each in axles(model):
@@ -74,11 +74,11 @@ class ControllerContradictsWheels(RobotRule):
                 yield self._at(each.source, node, message, joint, f"write {actual:.6g}")
             for node, message in exchanged(each):
                 yield self._at(each.source, node, message, node.text, "exchange the names")
-        for source, controller, name, wheels in steering_wheels(model):
+        for source, group, name, wheels in (*steering_wheels(model), *mecanum_wheels(model)):
             links = [model.robot.link_by_name.get(wheel.joint.child or "") for wheel in wheels]
             shapes = [shape.geometry for link in links if link is not None for shape in link.collisions]
             radii = [shape.radius for shape in shapes if isinstance(shape, (Cylinder, Sphere)) and shape.radius > 0.0]
-            for parameter, value in _positive_number(controller, name):
+            for parameter, value in _positive_number(group, name):
                 if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                     message = f"`{name}` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
                     names = tuple(str(wheel.joint.child) for wheel in wheels)
@@ -113,9 +113,9 @@ class ControllerContradictsWheels(RobotRule):
             for (_, wheel), (_, opposite) in zip(left, right, strict=True)
             for left_centre, right_centre in zip(wheel.middles, opposite.middles, strict=False)
         ]
-        for parameter, value in _positive_number(controller, "wheel_separation"):
+        for parameter, value in _positive_number(controller.group, "wheel_separation"):
             tuned = value * next(
-                (number for _, number in _positive_number(controller, "wheel_separation_multiplier")), 1.0
+                (number for _, number in _positive_number(controller.group, "wheel_separation_multiplier")), 1.0
             )
             if separation_of_joints > 0.01 and not any(
                 distance / (1.0 + TOLERANCE) <= separation <= max_ratio * distance
@@ -127,7 +127,7 @@ class ControllerContradictsWheels(RobotRule):
                 message = f"`wheel_separation` is {value:g} m, but {subject} are {actual:.6g} m apart"
                 yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}")
         radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
-        for parameter, value in _positive_number(controller, "wheel_radius"):
+        for parameter, value in _positive_number(controller.group, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
                 help, child = f"write {radii[0]:.6g}", str(first.joint.child)
@@ -149,11 +149,11 @@ class ControllerContradictsWheels(RobotRule):
         return self.at_span(span, message, joint=joint, help=help, kind=kind, names=names)
 
 
-def _positive_number(controller: ControllerSettings, name: str) -> Iterator[tuple[Node, float]]:
+def _positive_number(group: Node, name: str) -> Iterator[tuple[Node, float]]:
     """Yield the node and value of a parameter greater than zero; with zero, the controller reads the description."""
     from urdfkit.description.xml.numbers import number
 
-    node = controller.group.find(name)
+    node = group.find(name)
     value = number(node.text) if node is not None and node.text else None
     if node is not None and value is not None and value > 0.0:
         yield node, value
