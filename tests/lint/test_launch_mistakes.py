@@ -473,3 +473,41 @@ def test_names_of_managed_nodes_in_an_xml_launch_file(tmp_path, names, more, mes
     cart = package(tmp_path / "cart", "ament_cmake", "nav2_map_server", "nav2_amcl", "nav2_lifecycle_manager")
     write(cart / "launch/localization.launch.xml", SERVERS.format(names, more))
     assert found(cart, "L117") == ([("localization.launch.xml", 10, message)] if message else [])
+
+
+FILTERS = """ekf:
+  ros__parameters:
+    imu0: imu/data
+navsat:
+  ros__parameters:
+    frequency: 30.0
+"""
+NAVSAT = """<launch>
+  <node pkg="robot_localization" exec="ekf_node" name="ekf">
+    <param from="$(find-pkg-share cart)/config/filters.yaml"/>
+    <remap from="imu/data" to="imu"/>
+  </node>
+  <node pkg="robot_localization" exec="navsat_transform_node" name="{name}">
+    <param from="$(find-pkg-share cart)/config/filters.yaml"/>
+    <remap from="{old}" to="{new}"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "is_reported"),
+    [
+        ("navsat", "imu/data", "imu", True),
+        ("navsat", "imu", "imu/data", False),
+        ("other", "imu/data", "imu", False),
+    ],
+)
+def test_the_topic_of_another_section_of_the_parameter_file_is_not_that_of_the_node(
+    tmp_path, name, old, new, is_reported
+):
+    cart = package(tmp_path / "cart", "ament_cmake", "robot_localization")
+    write(cart / "config/filters.yaml", FILTERS)
+    write(cart / "launch/filters.launch.xml", NAVSAT.format(name=name, old=old, new=new))
+    message = "`navsat_transform_node` has no topic `imu/data`; did you mean `imu`?"
+    assert found(cart, "K980") == ([("filters.launch.xml", 8, message)] if is_reported else [])

@@ -20,6 +20,7 @@ from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, start_of, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
+from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.topics.graph import drive_topics, remapped, remaps_groups
 from urdfkit.lint.facts.topics.node_topics import published_commands, topics_of
@@ -100,13 +101,20 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
         for old, new in node.remappings:
             name = old.name.removeprefix("~").strip("/")
             is_moved = "/" in name and name.rpartition("/")[2] in accepted and new.name.strip("/") not in names
-            texts = [files[file].text if file in files else name for file in node.files]
+            texts = [_settings(node, files[file]) if file in files else name for file in node.files]
             is_read = any(re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", text) for text in texts)
             if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or is_read:
                 continue
             left = [each for each in names if each not in written]
             near = new.name if new.name in left else nearest(name, left, cutoff=0.6)
             yield node.source, old, f"`{label}` has no topic `{name}`" + Suggestion(near, name)
+
+
+def _settings(node: LaunchedNode, file: Source) -> str:
+    """Return the text of the sections of a node in its parameter file; the whole text if none has its name."""
+    own = [group for key, group in sections(file) if node.name is not None and key.last_name == node.name.name]
+    is_shared = not own or any("*" in key.text for key, _ in sections(file))
+    return file.text if is_shared else "\n".join(each.text for group in own for each in walk(group))
 
 
 def _unfed(model: Model, published: set[str]) -> LaunchedNode | None:
