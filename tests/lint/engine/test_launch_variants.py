@@ -168,3 +168,25 @@ def test_a_consequence_in_one_variant_of_a_cause_in_another_is_left_out(
     (package / "urdf/cart.urdf.xacro").write_text(text)
     assert {code for code, _, _ in found(capsys, "--select", "S907,S909", "--no-launch-arguments")} == {"S909"}
     assert {code for code, _, _ in found(capsys, "--select", "S907,S909")} == {"S907"}
+
+
+@pytest.mark.parametrize("default", ["true", "false"])
+def test_a_package_that_one_variant_needs_is_missing_in_package_xml(
+    package: Path, capsys: pytest.CaptureFixture[str], default: str
+) -> None:
+    plugin = '<gazebo><plugin name="c" filename="libgz_ros2_control-system.so"/></gazebo>'
+    robot = ROBOT.replace('"lidar" default="false"', f'"sim" default="{default}"').replace("$(arg lidar)", "$(arg sim)")
+    robot = robot.replace("bse", "base").replace("</xacro:if>", f"{plugin}</xacro:if>")
+    (package / "urdf/cart.urdf.xacro").write_text(robot)
+    needed = "<exec_depend>ros_gz_sim</exec_depend>"
+    (package / "package.xml").write_text(f"<package format='3'><name>cart_description</name>{needed}</package>")
+    (package / "launch/sim.launch.py").unlink()
+    value = "false" if default == "true" else "true"
+    text = LAUNCH.replace("lidar:=VALUE", f"sim:={value}")
+    name = "sim" if value == "true" else "display"
+    text = text if value == "true" else text.replace("ros_gz_sim", "rviz2").replace("create", "rviz2")
+    (package / f"launch/{name}.launch.py").write_text(text)
+    main(["lint", ".", "--select", "K956", "--format", "json"])
+    rows = [(Path(each["file"]).name, each["message"]) for each in json.loads(capsys.readouterr().out)]
+    message = "missing dependency on `gz_ros2_control`, whose plugin the robot loads"
+    assert [row for row in rows if "plugin" in row[1]] == [("package.xml", message)]

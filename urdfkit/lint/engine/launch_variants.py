@@ -25,6 +25,9 @@ _TRANSMISSIONS = "K963"
 _SIMULATED = ("K969", "K977")
 """Codes of rules that compare topics with the sensors and plugins for Gazebo."""
 
+_DEPENDENCY = "K956"
+"""Code of the rule that reports in package.xml what a description uses."""
+
 MOST = 4
 """Maximum number of variants of one robot that are linted."""
 
@@ -106,7 +109,7 @@ def with_variants(
         every.append((*check({**each.arguments, **arguments}), str(each)))
     sources = {file for _, each, _ in every for file in each.expanded.sources}
     complete = [(result, each) for result, each, _ in every if not each.is_incomplete]
-    common = [{(one.code, one.span) for one in result.findings} for result, _ in complete]
+    common = [{_identity(one) for one in result.findings} for result, _ in complete]
     with_hardware = [keys for keys, (_, each) in zip(common, complete, strict=True) if each.robot.ros2_control]
     with_transmissions = [keys for keys, (_, each) in zip(common, complete, strict=True) if each.robot.transmissions]
     gazebo = [keys for keys, (_, each) in zip(common, complete, strict=True) if _has_sensors(each)]
@@ -117,10 +120,11 @@ def with_variants(
     }
     findings: list[Finding] = []
     for result, _, variant in every:
-        present = {(one.code, one.span) for one in findings}
+        present = {_identity(one) for one in findings}
         for one in result.findings:
-            key = one.code, one.span
-            is_defect = one.file in sources or all(key in keys for keys in common_of.get(one.code, common))
+            key = _identity(one)
+            origins = {one.file, *(each.file for each in one.related if one.code == _DEPENDENCY)}
+            is_defect = not sources.isdisjoint(origins) or all(key in keys for keys in common_of.get(one.code, common))
             if is_defect and key not in present and not _is_passed(one, variants):
                 findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
     if model.target != "urdfkit":
@@ -134,6 +138,11 @@ def with_variants(
         found.unused,
     )
     return merged, [each for _, each, _ in every[1:]]
+
+
+def _identity(finding: Finding) -> tuple[object, ...]:
+    """Return what a finding has in common with the same one of another variant; many packages may miss in one place."""
+    return finding.code, finding.span, finding.message if finding.code == _DEPENDENCY else ""
 
 
 def _has_sensors(model: Model) -> bool:
