@@ -138,6 +138,32 @@ def test_of_names_that_macros_make_those_count_that_their_calls_give(workspace, 
     assert any(row[0] == "K959" for row in found(workspace)) is is_found
 
 
+OTHER_MACRO = """  <xacro:macro name="scanner" params="name {default}">
+    <link name="${{{inner}}}_bo"/><joint name="${{{inner}}}bo" type="fixed"/>
+  </xacro:macro>
+  <xacro:scanner name="front"/>
+"""
+
+
+@pytest.mark.parametrize(
+    ("default", "inner", "called", "is_found"),
+    [
+        ("side:=left", "name", "scanner", True),
+        ("side:=left", "side", "scanner", True),
+        ("side:=el", "side", "scanner", False),
+        ("side:=left", "other", "scanner", False),  # a parameter of the caller
+        ("side:=left", "name", "call", False),  # a macro whose name is computed
+    ],
+)
+def test_the_parameters_of_a_macro_have_the_values_of_its_own_calls(workspace, default, inner, called, is_found):
+    (workspace / "arm_description" / "urdf" / "arm.urdf").unlink()
+    text = OTHER_MACRO.format(default=default, inner=inner).replace("<xacro:scanner", f"<xacro:{called}")
+    robot = CALLS.format(other="el").replace('name="elbow"/>', 'name="elbow" other="el"/>', 1)
+    robot = robot.replace("  <ros2_control", f"{text}  <ros2_control")
+    (workspace / "arm_description" / "urdf" / "arm.urdf.xacro").write_text(robot)
+    assert any(row[0] == "K959" for row in found(workspace)) is is_found
+
+
 def test_the_name_of_the_package_in_its_build_files_makes_no_file(workspace):
     launch = workspace / "arm_description" / "launch.launch"
     launch.write_text('<launch><param textfile="$(find arm_description)/urdf/arm_description.urdf"/></launch>')

@@ -1,12 +1,19 @@
 """NeighbouringDescriptions: the descriptions in neighbouring packages, which may define a name."""
 
+from __future__ import annotations
+
 import re
-from collections.abc import Iterable
+from bisect import bisect_right
 from functools import cached_property
 from pathlib import Path
 
-from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import ResourceError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from urdfkit.description.xacro.expanded import Expanded
 
 
 class NeighbouringDescriptions:
@@ -52,10 +59,19 @@ class NeighbouringDescriptions:
         texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
         every = "\n".join(texts.values())
         # An element whose first child is an interface belongs to ros2_control or a transmission.
-        tags = re.findall(rf"(<{tag}\b[^>]*>)(?!\s*<(?:command_interface|state_interface|hardwareInterface)\b)", every)
-        names = [name for found in tags for name in re.findall(r"\bname\s*=\s*[\"']([^\"']*)", found)[:1]]
-        calls = "\n".join((*re.findall(_CALL, every), *re.findall(_DEFAULTS, every)))
-        return [_pattern(name, calls, every) for name in dict.fromkeys(names)]
+        tag = rf"<{tag}\b[^>]*>(?!\s*<(?:command_interface|state_interface|hardwareInterface)\b)"
+        names = [
+            (name, macro)
+            for macro, found in _in_macros(tag, every)
+            for name in re.findall(r"\bname\s*=\s*[\"']([^\"']*)", found)[:1]
+        ]
+        calls: Calls = {}
+        for macro, text in _in_macros(_CALL, every):
+            called = re.split(r"[\s/>]", text.partition(":")[2], maxsplit=1)[0].rpartition(".")[2]
+            calls.setdefault(called, []).append((macro, text))
+        for macro, text in _in_macros(_DEFAULTS, every):
+            calls.setdefault(macro, []).append((macro, text))
+        return [_pattern(*name, calls, every) for name in dict.fromkeys(names)]
 
     @cached_property
     def _texts(self) -> dict[str, str]:
@@ -73,11 +89,23 @@ class NeighbouringDescriptions:
         return {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
 
 
-def _pattern(name: str, calls: str, texts: str, outer: tuple[str, ...] = ()) -> str:
+def _in_macros(pattern: str, texts: str) -> list[tuple[str, str]]:
+    """Return each match of a pattern, after the name of the macro around it; an empty name if that is unclear."""
+    bounds = [(macro.start(), macro[1] or "") for macro in re.finditer(_MACRO, texts)]
+    starts = [start for start, _ in bounds]
+    found = []
+    for match in re.finditer(pattern, texts):
+        at = bisect_right(starts, match.start()) - 1
+        found.append((bounds[at][1] if at >= 0 else "", match[0]))
+    return found
+
+
+def _pattern(name: str, macro: str, calls: Calls, texts: str, outer: tuple[str, ...] = ()) -> str:
     """Return the pattern of a name; the arguments of the macro's calls replace its parameters.
 
     Args:
         name: a name with expressions.
+        macro: the macro that the name is in. If its own calls have no value, that of its caller may be visible.
         calls: the calls of macros and the defaults of their parameters.
         texts: the texts of the descriptions.
         outer: the parameters whose arguments are being replaced.
@@ -88,21 +116,34 @@ def _pattern(name: str, calls: str, texts: str, outer: tuple[str, ...] = ()) -> 
             parts.append(re.escape(part))
             continue
         word = re.fullmatch(r"\$\{\s*(\w+)\s*\}", part)
-        values = set(re.findall(rf"(?<![\w:]){word[1]}\s*:?=\s*[\"']?([^\"'\s]*)", calls)) if word else set()
-        is_written = values and len(values) <= _MAX_VALUES and not any("^" in value for value in values)
+        is_static = "call" not in calls  # else <xacro:call> may call any macro
+        values = _values(word[1], calls.get(macro, ())) if word and is_static else set()
+        if word and not values:
+            values = _values(word[1], [call for each in calls.values() for call in each])
+        is_written = values and len(values) <= _MAX_VALUES and not any("^" in value for value, _ in values)
         is_set = word is not None and re.search(rf"property\s+name\s*=\s*[\"']{word[1]}[\"']", texts)
         if word is None or not is_written or is_set or word[1] in outer or len(outer) >= _MAX_DEPTH:
             parts.append(".*")
             continue
-        patterns = sorted({_pattern(value, calls, texts, (*outer, word[1])) for value in values})
+        patterns = sorted({_pattern(*value, calls, texts, (*outer, word[1])) for value in values})
         parts.append(".*" if ".*" in patterns else f"(?:{'|'.join(patterns)})")
     pattern = "".join(parts)
     return ".*" if "\\$" in pattern or len(pattern) > _MAX_LENGTH else pattern
 
 
+def _values(name: str, calls: Iterable[tuple[str, str]]) -> set[tuple[str, str]]:
+    """Return the values of a parameter in calls, each with the macro that the call is in."""
+    argument = re.compile(rf"(?<![\w:]){name}\s*:?=\s*[\"']?([^\"'\s]*)")
+    return {(value, macro) for macro, call in calls for value in argument.findall(call)}
+
+
+Calls = dict[str, list[tuple[str, str]]]
+"""Name of a macro → its calls and the defaults of its parameters, each after the macro that it is in."""
+
+_MACRO = r"<xacro:macro\b[^<>]*?\bname\s*=\s*[\"']([^\"']*)|</xacro:macro>"
 _CALL = r"<xacro:(?!macro\b|property\b|arg\b|include\b|if\b|unless\b)[^<>]*>"
 _DEFAULTS = r"\bparams\s*=\s*(?:\"[^\"]*\"|'[^']*')"
-"""Calls of macros, and the defaults of their parameters."""
+"""Starts and ends of macros, calls of macros, and the defaults of their parameters."""
 
 _MAX_VALUES = 200
 """Maximum number of values of one parameter."""
