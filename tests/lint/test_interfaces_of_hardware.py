@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from urdfkit.lint import lint
 
 MANIFEST = """<package format="3"><name>arm</name><version>1.0.0</version><description>An arm.</description>
@@ -62,3 +64,35 @@ def test_an_interface_in_place_of_that_of_two_controllers_is_reported_at_the_har
 def test_an_interface_that_one_controller_misses_is_reported_at_the_controller(tmp_path):
     ((file, _, _),) = found(tmp_path, ROBOT.replace('name="velocity"', 'name="effort"'), ["first"])
     assert file == "controllers.yaml"
+
+
+CORNERS = ("front_left", "front_right", "rear_right", "rear_left")
+
+
+@pytest.mark.parametrize(
+    ("commanded", "read", "interface"),
+    [
+        ("velocity", "velocity", ""),
+        ("effort", "velocity", "commands the velocity interface"),
+        ("velocity", "position", "reads the velocity interface"),
+    ],
+)
+def test_a_mecanum_drive_commands_and_reads_the_velocity_of_its_wheels(tmp_path, commanded, read, interface):
+    wheel = JOINT.replace("M", "0").replace("revolute", "continuous")
+    joints = "".join(wheel.replace("N", str(n)) for n in range(1, 5))
+    robot = ROBOT[: ROBOT.index("  <link")] + '  <link name="l0"/>\n' + joints + ROBOT[ROBOT.index("  <ros2_control") :]
+    robot = robot.replace('<command_interface name="position"', f'<command_interface name="{commanded}"')
+    robot = robot.replace('<state_interface name="velocity"', f'<state_interface name="{read}"')
+    robot = robot.replace('<xacro:driven name="j2"/>', "".join(f'<xacro:driven name="j{n}"/>' for n in (2, 3, 4)))
+    names = "".join(f"    {corner}_wheel_command_joint_name: j{n}\n" for n, corner in enumerate(CORNERS, 1))
+    kind = "      type: mecanum_drive_controller/MecanumDriveController\n"
+    (tmp_path / "config").mkdir()
+    for name, text in {
+        "package.xml": MANIFEST,
+        "arm.urdf.xacro": robot,
+        "config/controllers.yaml": "controller_manager:\n  ros__parameters:\n    base:\n"
+        f"{kind}base:\n  ros__parameters:\n{names}",
+    }.items():
+        (tmp_path / name).write_text(text)
+    messages = [one.message for one in lint(tmp_path, select=("K965",))]
+    assert [interface in message for message in messages] == [True] * bool(interface)

@@ -130,6 +130,11 @@ def wanted(controller: DeclaredController) -> Iterator[Wanted]:
         drive, steering = ("front", "rear") if _truth(settings, "front_steering") is False else ("rear", "front")
         yield from all_of(joints(f"{drive}_wheels_names"), "velocity", True)  # until Jazzy
         yield from all_of(joints(f"{steering}_wheels_names"), "position", True)
+    elif kind == "mecanum_drive_controller/MecanumDriveController":
+        for corner in ("front_left", "front_right", "rear_right", "rear_left"):
+            commanded = joints(f"{corner}_wheel_command_joint_name")
+            yield from all_of(commanded, "velocity", True)
+            yield from all_of(joints(f"{corner}_wheel_state_joint_name") or commanded, "velocity", False)
 
 
 def _truth(settings: Node, name: str) -> bool | None:
