@@ -511,3 +511,35 @@ def test_the_topic_of_another_section_of_the_parameter_file_is_not_that_of_the_n
     write(cart / "launch/filters.launch.xml", NAVSAT.format(name=name, old=old, new=new))
     message = "`navsat_transform_node` has no topic `imu/data`; did you mean `imu`?"
     assert found(cart, "K980") == ([("filters.launch.xml", 8, message)] if is_reported else [])
+
+
+POSITIONS = """<launch>
+  <node name="a" pkg="gazebo_ros" type="spawn_model"
+        args="-urdf -param robot_description -model cart {} -0.6"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("joints", "is_found"),
+    [
+        ("-J lift 0.1 -J shoulder_pan", True),
+        ("-J lift 0.1 -J turn", False),
+        ("-J shoulder_pan", False),  # no joint is one of this robot's
+        ("-J lift 0.1 -J $(arg joint)", False),
+    ],
+)
+def test_a_joint_with_a_first_position_exists_if_the_others_are_of_this_robot(
+    tmp_path: Path, joints: str, is_found: bool
+) -> None:
+    folder = package(tmp_path / "cart", "catkin", "gazebo_ros")
+    names = {"lift": "mast", "turn": "head"}
+    parts = "".join(
+        f'  <link name="{link}"/>\n  <joint name="{joint}" type="continuous">'
+        f'<parent link="base"/><child link="{link}"/></joint>\n'
+        for joint, link in names.items()
+    )
+    write(folder / "cart.urdf", f'<robot name="cart">\n  <link name="base"/>\n{parts}</robot>\n')
+    write(folder / "launch" / "spawn.launch", POSITIONS.format(joints))
+    rows = [row for row in found(folder, "K968") if "joint" in row[2]]
+    assert rows == [("spawn.launch", 3, "unknown joint `shoulder_pan`")] * is_found

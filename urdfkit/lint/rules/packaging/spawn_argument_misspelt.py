@@ -243,15 +243,17 @@ _PACKAGE_BEFORE = (
 
 
 def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
-    """Yield the offset, text and message of each misspelt joint after ``-J``."""
+    """Yield the offset, text and message of each joint after ``-J`` that is misspelt, or that alone is undefined."""
     from urdfkit.lint.facts.launch.python_api import first_slip
 
     names = {joint.name for joint in model.robot.joints}
-    for option, word in zip(node.arguments, node.arguments[1:], strict=False):
-        if option is None or option.name != "-J" or word is None or word.name in names:
-            continue
-        near = first_slip(word.name, names)
-        if near is not None:
+    pairs = zip(node.arguments, node.arguments[1:], strict=False)
+    words = [word for option, word in pairs if option is not None and option.name == "-J" and word is not None]
+    is_spawned = any(word.name in names for word in words) and not model.is_incomplete
+    for word in words:
+        near = first_slip(word.name, names) if word.name not in names else None
+        is_undefined = is_spawned and not model.neighbouring_descriptions.define("joint", word.name)
+        if near is not None or (word.name not in names and is_undefined and "$" not in word.name):
             yield word.start, word.name, f"unknown joint `{word.name}`" + Suggestion(near, word.name)
 
 
