@@ -2,7 +2,8 @@
 
 The ranges are far wider than the defaults and examples of the packages (ros2_controllers, navigation2, navigation,
 robot_localization, slam_toolbox, gmapping, twist_mux, teleop_twist_joy, moveit2, Noetic to Rolling). Values of zero and
-below switch a function off in many nodes and are accepted here.
+below switch a function off in many nodes and are accepted here. The greatest number of voxels is that of
+nav2_voxel_grid (voxel_grid.cpp), which has no more than 16 layers and drops the others.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ inflation_radius||0.01 20 m
 obstacle_range raytrace_range obstacle_max_range raytrace_max_range||0.05 500 m
 max_laser_range laser_max_range maxRange maxUrange||0.1 500 m
 max_obstacle_height||0.01 200 m
+z_voxels|z_resolution,origin_z,observation_sources|1 16
 footprint_padding||0.0001 2 m
 particles|maxUrange,maxRange|2 5000
 min_particles max_particles||5 200000
