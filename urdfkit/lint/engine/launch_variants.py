@@ -26,7 +26,7 @@ _SIMULATED = ("K969", "K977")
 """Codes of rules that compare topics with the sensors and plugins for Gazebo."""
 
 _DEPENDENCY = "K956"
-"""Code of the rule that reports in package.xml what a description uses."""
+"""Code of the rule that reports in package.xml the packages that a description lacks."""
 
 MOST = 4
 """Maximum number of variants of one robot that are linted."""
@@ -141,7 +141,7 @@ def with_variants(
 
 
 def _identity(finding: Finding) -> tuple[object, ...]:
-    """Return what a finding has in common with the same one of another variant; many packages may miss in one place."""
+    """Return the part of a finding that is equal in all variants; one place may lack several packages."""
     return finding.code, finding.span, finding.message if finding.code == _DEPENDENCY else ""
 
 
