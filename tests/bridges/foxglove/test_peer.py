@@ -201,7 +201,7 @@ def test_only_meshes_and_textures_of_packages_are_sent(greeted, uri: str, reason
         ('{"op": "advertise", "channels": [{"id": 1, "topic": "/odom", "encoding": "cdr", "schemaName": "a/B"}]}',
          "topic `/odom` has type nav_msgs/msg/Odometry"),
         (b"\x01", "too short"),
-        (b"\x09", "unknown kind 9"),
+        (b"\x09", "unknown type 9"),
         (struct.pack("<BI", 1, 8) + b"x", "the channel 8 is not advertised"),
     ],
 )  # fmt: skip

@@ -114,9 +114,9 @@ def test_lidars(text: str, expected: list[tuple[str, str]]) -> None:
             ],
         ),
         ("<clip><far>0.2</far></clip>", False, []),
-        ("<clip><far>0.1</far></clip>", False, [("clip", "the range of the camera, 0.1 m to 0.1 m, is empty")]),
+        ("<clip><far>0.1</far></clip>", False, [("far", "the range of the camera, 0.1 m to 0.1 m, is empty")]),
         ("<clip><near>99</near></clip>", False, []),
-        ("<clip><near>100</near></clip>", False, [("clip", "the range of the camera, 100 m to 100 m, is empty")]),
+        ("<clip><near>100</near></clip>", False, [("near", "the range of the camera, 100 m to 100 m, is empty")]),
         ("<clip><near>close</near></clip>", False, []),
     ],
 )

@@ -141,7 +141,7 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
         yield written, f"unknown pixel format `{written.text}`" + hint
     near, far = _number(clip, "near", 0.1), _number(clip, "far", 100.0)
     if not isnan(near + far) and not near < far:
-        place = clip.find("near") if clip is not None else None
+        place = clip and (clip.find("near") or clip.find("far"))
         yield place or clip or camera, f"the range of the camera, {near:g} m to {far:g} m, is empty"
 
 

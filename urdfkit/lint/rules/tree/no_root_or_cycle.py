@@ -31,17 +31,13 @@ class NoRootOrCycle(RobotRule):
     name = "no-root-or-cycle"
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each loop, at the joint on a link that is defined later, else at its last joint."""
+        """Yield a finding for each loop, at the last of its joints in the file."""
         robot = model.robot
         loops = cycles(robot)
         found = {id(loop[0]) for loop in loops}
         loops += [[joint] for joint in robot.joints if is_loop(joint) and id(joint) not in found]
         for loop in loops:
             last = max(loop, key=robot.joints.index)
-            order = {joint.child: robot.joints.index(joint) for joint in loop}
-            # Files define a robot from its root on, so the one joint on a link that is defined later is the wrong one.
-            backward = [joint for joint in loop if order[joint.parent] > order[joint.child]]
-            parent = backward[0].element.find("parent") if len(backward) == 1 else None
             links = [str(joint.parent) for joint in loop]
             message = f"the joints form a loop: {' → '.join([*links, links[0]])}"
             if len(loop) == 1:
@@ -50,10 +46,10 @@ class NoRootOrCycle(RobotRule):
             rootless = [link.name for link in robot.roots() if re.sub(r"_?link$", "", link.name) == stem != ""]
             yield self.at(
                 model,
-                last.element if parent is None else parent,
+                last.element,
                 message,
-                attribute="name" if parent is None else "link",
-                joint=last.name if parent is None else backward[0].name,
+                attribute="name",
+                joint=last.name,
                 names=tuple(rootless) if len(loop) == 1 else (),
                 help="remove one of the joints: each link has at most one parent" if len(loop) > 1 else None,
             )
