@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any, Literal
 
-    from urdfkit.description.xml.element import Element
-
     Severity = Literal["error", "warning", "note"]
     Safety = Literal["safe", "unsafe"]
 else:
@@ -110,11 +108,6 @@ class Finding:
     def __repr__(self) -> str:
         """Return code, position and message."""
         return f"<Finding {self.code} {self.file}:{self.line}:{self.column}: {self.message}>"
-
-    def with_expansion_of(self, twin: Element) -> Finding:
-        """Return the finding with the macro calls of a second element that the same tag of a macro produced."""
-        chain = twin.origin.expansions
-        return Finding(**{**self.__dict__, "chains": tuple(dict.fromkeys((chain, *self.chains)))}) if chain else self
 
     @property
     def file(self) -> str:

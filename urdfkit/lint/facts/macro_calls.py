@@ -3,6 +3,7 @@
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.source import Position
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 
 
@@ -22,3 +23,11 @@ def equal_call(model: Model, first: Element, other: Element) -> Position | None:
     ]
     common = values[0].keys() & values[1].keys() if len(values) == 2 else ()
     return two[0].position if common and all(values[0][name] == values[1][name] for name in common) else None
+
+
+def with_calls_of(finding: Finding, twin: Element) -> Finding:
+    """Return a finding with the macro calls of a second element, which the same tag of a macro produced."""
+    chain = twin.origin.expansions
+    return (
+        Finding(**{**finding.__dict__, "chains": tuple(dict.fromkeys((chain, *finding.chains)))}) if chain else finding
+    )

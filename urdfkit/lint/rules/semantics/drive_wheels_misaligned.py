@@ -118,7 +118,7 @@ class DriveWheelsMisaligned(RobotRule):
                 yield self._at(model, first, other, message, "correct the <origin> of one of the joints")
 
     def _at(self, model: Model, first: Wheel, other: Wheel, message: str, help: str) -> Finding:
-        from urdfkit.lint.facts.macro_calls import equal_call
+        from urdfkit.lint.facts.macro_calls import equal_call, with_calls_of
 
         joint, names = other.joint, (first.joint.name,)
         is_misaligned = max(_distances(first, other)) >= _MIN_DISTANCE
@@ -129,7 +129,7 @@ class DriveWheelsMisaligned(RobotRule):
             place, attribute = wrong, "xyz"
         found = self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
         own, twin = joint.element.origin, first.joint.element.origin
-        return found.with_expansion_of(first.joint.element) if own.position == twin.position else found
+        return with_calls_of(found, first.joint.element) if own.position == twin.position else found
 
 
 def _are_opposite(one: Wheel, other: Wheel) -> bool:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Joint, Vector
+from urdfkit.lint.facts.macro_calls import with_calls_of
 from urdfkit.lint.facts.placement.joint_axes import axis_in_root
 from urdfkit.lint.facts.twins import mirrored
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -74,7 +75,7 @@ class TwinsTurnDifferently(RobotRule):
             names = (first.name, second.name)
             found = self.at(model, element, message, attribute="xyz", joint=second.name, help=help, names=names)
             is_one_tag = first.element.origin.position == second.element.origin.position
-            yield found.with_expansion_of(first.element) if is_one_tag else found
+            yield with_calls_of(found, first.element) if is_one_tag else found
 
 
 def _pairs(model: Model) -> Iterator[tuple[Joint, Joint]]:
