@@ -50,7 +50,7 @@ HOSTILE = {
         "infinite recursion",
     ),
     "parameter": ('<xacro:macro name="m" params="a"><xacro:m/></xacro:macro><xacro:m a="1"/>', "needs `a`"),
-    "macros": (f'<xacro:macro name="m0"><l/></xacro:macro>{_macros(8, "<xacro:m{0}/>" * 30)}<xacro:m8/>', "multiply"),
+    "macros": (f'<xacro:macro name="m0"><l/></xacro:macro>{_macros(8, "<xacro:m{0}/>" * 30)}<xacro:m8/>', "nested"),
     "merges": ("<l a=\"${len(xacro.load_yaml('merges.yaml'))}\"/>", "merge keys"),
     "depth": ("<l a=\"${len(xacro.load_yaml('deep.yaml'))}\"/>", "nested"),
     "values": ("<l a=\"${xacro.load_yaml('values.yaml')[0]}\"/>" * 20, "exceed 1,000,000 steps"),
