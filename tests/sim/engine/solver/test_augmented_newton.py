@@ -73,12 +73,11 @@ def newton_steps(engine: Engine, steps: int) -> list[int]:
     return found
 
 
-def test_attempts_that_fail_at_rest_are_skipped_in_most_steps(engine_of: EngineOf) -> None:
+def test_a_robot_at_rest_takes_few_steps(engine_of: EngineOf) -> None:
     engine = lying(engine_of)
     taken = newton_steps(engine, 170)
     assert min(taken) > 0
     assert np.mean(taken) < 4.0
-    assert max(taken) > 5  # corrections are still attempted now and then
     assert np.abs(engine.v).max() < 1e-6
     assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(WEIGHT, rel=1e-5)
 

@@ -20,7 +20,7 @@ from urdfkit.sim.engine.island_solver.gauss_seidel import prepare, sweep_both_wa
 from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, push_row, row_speeds, take_momentum
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import WIDTH
-from urdfkit.sim.engine.solver.augmented_newton import BALANCE, EXACT, GAIN, HARDER, NEAR, SHORTER, SOFTER, SOLVED
+from urdfkit.sim.engine.solver.augmented_newton import BALANCE, EXACT, GAIN, HARDER, NEAR, SOFTER, SOLVED
 from urdfkit.sim.engine.solver.row_states import AT_HIGH, AT_LOW, HOLDS, SLIDES
 
 SOFT, SOFTEST, HARDEST = 5e-5, 3e-6, 1e-2
@@ -32,6 +32,8 @@ LONG = 20
 more steps. Most islands take fewer steps."""
 MEMORY = 0.99
 """How much of the last step's impulses is started from."""
+SHORTER = (1.0, 0.3, 0.15, 0.075, 0.0375)
+"""Shares of a step that are tried; with the shorter ones of a single robot, some piles need more rounds."""
 SWEEPS = 5
 """Pairs of sweeps before the first round."""
 
