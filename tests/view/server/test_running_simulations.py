@@ -38,7 +38,7 @@ def test_of_several_one_has_to_be_named(folder) -> None:
         ):
             find()
         assert find("localhost:7008") == find("http://127.0.0.1:7008") == find(other) == other
-        with pytest.raises(UsageError, match=r"with its token; did you mean `http://127.0.0.1:7008`"):
+        with pytest.raises(UsageError, match=r"include the token in the address; did you mean `http://127.0.0.1:7008`"):
             find("http://127.0.0.1:7080")
 
 

@@ -91,8 +91,12 @@ def _written(finding: Finding, model: Model) -> Span | None:
 
 
 def _only_call(finding: Finding, calls: set[Expansion], model: Model) -> Span | None:
-    """Return the one macro call whose arguments give a wrong inertia, while the macro gives right ones elsewhere."""
-    is_computed = finding.code.startswith("I") or (finding.code == "J414" and "rpy" in _text(finding, model))
+    """Return the one macro call whose arguments give a wrong inertia, while the macro gives right ones elsewhere.
+
+    Where the macro writes numbers instead of expressions, no call is wrong.
+    """
+    text = _text(finding, model)
+    is_computed = (finding.code.startswith("I") and "${" in text) or (finding.code == "J414" and "rpy" in text)
     if not is_computed or len(calls) != 1 or finding.file not in model.expanded.sources:
         return None
     if "urdfkit:" in model.document(finding.file).source.text:
