@@ -166,6 +166,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T207", ""), "robot", ("C707", "undefined")),
     (("T207", ""), "robot", ("J416", "undefined")),
     (("T207", ""), "robot", ("K959", "")),
+    (("T207", ""), "robot", ("K968", "joint")),
     (("T207", ""), "robot", ("M104", "joint")),
     (("T207", ""), "robot", ("M105", "")),
     (("T207", ""), "robot", ("M108", "joint")),

@@ -123,12 +123,9 @@ class SpawnArgumentMisspelt(RobotRule):
                 ):
                     yield self.at_span(source.span(start, start + len(text)), message, severity="warning")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
-                    invalid = (
-                        *_invalid_arguments(node, source, model),
-                        *_unknown_joints(node, model),
-                        *_without_source(node),
-                    )
-                    for start, text, message in invalid:
+                    for start, text, message in _unknown_joints(node, model):
+                        yield self.at_span(source.span(start, start + len(text)), message, kind="joint", names=(text,))
+                    for start, text, message in (*_invalid_arguments(node, source, model), *_without_source(node)):
                         span = source.span(start, start + len(text))
                         severity = "warning" if _is_ignored(node, text) else self.severity
                         kind, names = "option" if text.startswith("-") else "", (node.program or "",)
