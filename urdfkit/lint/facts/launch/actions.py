@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 from urdfkit.description.packages.related_files import LAUNCH
@@ -88,6 +88,14 @@ def all_elements(source: Source) -> Iterator[LaunchAction]:
         element = waiting.pop()
         yield element
         waiting += reversed(element.children)
+
+
+def launch_elements(model: Model, words: Iterable[str] = ("",)) -> Iterator[tuple[Source, LaunchAction]]:
+    """Yield the elements of the launch files in XML and YAML that contain one of some words."""
+    for source in model.related_files.values():
+        is_launch = source.file.endswith(LAUNCH) and not source.file.endswith(".py")
+        if is_launch and any(word in source.text for word in words):
+            yield from ((source, element) for element in all_elements(source))
 
 
 def _elements(source: Source) -> tuple[LaunchAction, ...]:

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements
+from urdfkit.lint.facts.launch.actions import launch_elements
 from urdfkit.lint.facts.launch.python_names import python_files
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
 from urdfkit.lint.facts.launch.started_nodes import StartedNode, started_nodes
@@ -127,18 +127,10 @@ def _gazebo_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, int], s
                     text = _text(value, reader)
                     if text is not None:
                         yield source, place(source, value), text
-    for source, element in _launch_elements(model, _GAZEBO):
+    for source, element in launch_elements(model, _GAZEBO):
         name, written = (element.attributes.get(each) for each in ("name", "value"))
         if name is not None and written is not None and name.name in _GAZEBO and "$(var" not in written.name:
             yield source, (written.start, written.end), written.name
-
-
-def _launch_elements(model: Model, words: tuple[str, ...]) -> Iterator[tuple[Source, LaunchAction]]:
-    """Yield the elements of the launch files in XML and YAML that contain one of some words."""
-    for source in model.related_files.values():
-        is_launch = source.file.endswith((".launch", ".launch.xml", "_launch.xml", ".launch.yaml", "_launch.yaml"))
-        if is_launch and any(word in source.text for word in words):
-            yield from ((source, element) for element in all_elements(source))
 
 
 def _text(node: ast.expr, reader: LaunchReader) -> str | None:
@@ -179,7 +171,7 @@ def idle_managers(model: Model) -> Places:
                     is_off = isinstance(value, ast.Constant) and value.value in (False, "false", "False")
                     if key is not None and reader.text(key) == "autostart" and is_off:
                         yield source, place(source, value), _IDLE
-    for source, element in _launch_elements(model, ("nav2_lifecycle_manager",)):
+    for source, element in launch_elements(model, ("nav2_lifecycle_manager",)):
         for child in element.children:
             name, written = (child.attributes.get(each) for each in ("name", "value"))
             if name is not None and written is not None and (name.name, written.name.lower()) == ("autostart", "false"):

@@ -20,7 +20,7 @@ from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import start_of, yamls
-from urdfkit.lint.facts.launch.actions import all_elements
+from urdfkit.lint.facts.launch.actions import launch_elements
 from urdfkit.lint.facts.launch.python_names import python_files
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.navigation.sections import sections
@@ -98,10 +98,7 @@ def wrong_types_in_launch(model: Model) -> Defects:
         found = code.of(each.package, each.program) if each.type else None
         expected = found.types.get(each.name.name, "") if found is not None else ""
         if expected and expected != each.type:
-            right = f"; write {each.value.name}.0" if (expected, each.type) == ("double", "int") else ""
-            shown = each.value.name.strip("\"'")
-            message = f"`{each.name.name}` is `{shown}`, but node `{each.program}` declares {SHOWN[expected]}"
-            yield each.source, (each.value.start, each.value.end), message + right
+            yield _wrong_type(each, expected, "node ")
 
 
 class _Codes:
@@ -141,10 +138,16 @@ def wrong_types_of_released_nodes(model: Model) -> Defects:
             expected = type.partition(" ")[0]
             if not fnmatchcase(each.name.name, pattern) or expected in ("keys", "list") or each.type == expected:
                 continue
-            right = f"; write {each.value.name}.0" if (expected, each.type) == ("double", "int") else ""
-            shown = each.value.name.strip("\"'")
-            message = f"`{each.name.name}` is `{shown}`, but `{each.program}` declares {SHOWN[expected]}"
-            yield each.source, (each.value.start, each.value.end), message + right
+            yield _wrong_type(each, expected)
+
+
+def _wrong_type(setting: _Setting, expected: str, word: str = "") -> tuple[Source, tuple[int, int], str]:
+    """Return the defect of a value of another type than its node declares; `word` is written before the node."""
+    value = setting.value
+    right = f"; write {value.name}.0" if (expected, setting.type) == ("double", "int") else ""
+    shown = value.name.strip("\"'")
+    message = f"`{setting.name.name}` is `{shown}`, but {word}`{setting.program}` declares {SHOWN[expected]}"
+    return setting.source, (value.start, value.end), message + right
 
 
 def _is_ros1(source: Source) -> bool:
@@ -196,16 +199,13 @@ def _in_python(model: Model, packages: Collection[str]) -> Iterator[_Setting]:
 
 
 def _in_elements(model: Model, packages: Collection[str]) -> Iterator[_Setting]:
-    for source in model.related_files.values():
-        if not source.file.endswith((".launch", ".launch.xml", "_launch.xml", ".launch.yaml", "_launch.yaml")):
+    for source, element in (each for each in launch_elements(model) if each[1].tag == "node"):
+        at = element.attributes
+        program = at.get("exec") or at.get("type")
+        if "pkg" not in at or program is None or at["pkg"].name not in packages:
             continue
-        for element in (each for each in all_elements(source) if each.tag == "node"):
-            at = element.attributes
-            program = at.get("exec") or at.get("type")
-            if "pkg" not in at or program is None or at["pkg"].name not in packages:
-                continue
-            for child in (each.attributes for each in element.children if each.tag == "param"):
-                name, value = child.get("name"), child.get("value")
-                if name is not None and value is not None:
-                    type = type_of_text(value.name) if "type" not in child else ""
-                    yield _Setting(source, at["pkg"].name, program.name, name, value, type)
+        for child in (each.attributes for each in element.children if each.tag == "param"):
+            name, value = child.get("name"), child.get("value")
+            if name is not None and value is not None:
+                type = type_of_text(value.name) if "type" not in child else ""
+                yield _Setting(source, at["pkg"].name, program.name, name, value, type)

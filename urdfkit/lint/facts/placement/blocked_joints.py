@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from math import cos, dist, inf, sin
 
-from urdfkit.description.urdf.geometry import Rotation, rotate, unit
+from urdfkit.description.urdf.geometry import rotate, rotation_of_quaternion, unit
 from urdfkit.description.urdf.robot import Joint, Vector
-from urdfkit.lint.facts.placement.solids import MovingBodies, Solid, diagonal
+from urdfkit.lint.facts.placement.solids import Solid, diagonal, moving_bodies
 from urdfkit.lint.model.model import Model
 
 _MOST = 40
@@ -37,8 +37,8 @@ _GROUND = 0.02
 
 def blocked_joints(model: Model) -> Iterator[tuple[Joint, str]]:
     """Yield the joints with the name of the link that their load enters; empty for the ground."""
-    bodies = MovingBodies(model)
-    if len(bodies.carriers) > _MOST:
+    bodies = moving_bodies(model, _MOST)
+    if bodies is None:
         return
     for body, (_, joint) in bodies.carriers.items():
         limits = _one_sided(joint)
@@ -94,20 +94,12 @@ def _movement(joint: Joint, pivot: Vector, axis: Vector) -> Callable[[Vector, fl
 
     def turned(point: Vector, position: float) -> Vector:
         offset = (point[0] - pivot[0], point[1] - pivot[1], point[2] - pivot[2])
-        x, y, z = (a + b for a, b in zip(pivot, rotate(_rotation(axis, position), offset), strict=True))
+        i, j, k = (sin(0.5 * position) * part for part in axis)
+        rotation = rotation_of_quaternion(i, j, k, cos(0.5 * position))
+        x, y, z = (a + b for a, b in zip(pivot, rotate(rotation, offset), strict=True))
         return x, y, z
 
     return slid if joint.type == "prismatic" else turned
-
-
-def _rotation(axis: Vector, angle: float) -> Rotation:
-    (x, y, z), c, s = axis, cos(angle), sin(angle)
-    t = 1.0 - c
-    return (
-        (t * x * x + c, t * x * y - s * z, t * x * z + s * y),
-        (t * x * y + s * z, t * y * y + c, t * y * z - s * x),
-        (t * x * z - s * y, t * y * z + s * x, t * z * z + c),
-    )
 
 
 def _met(

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Joint, Mesh, Pose, Vector
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.placement.solids import MovingBodies, Solid, diagonal, half_sizes
+from urdfkit.lint.facts.placement.solids import MovingBodies, Solid, diagonal, half_sizes, moving_bodies
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.record import record
@@ -48,8 +48,8 @@ class Overlap:
 
 def overlaps(model: Model) -> Iterator[Overlap]:
     """Yield the links in other links; robots whose links have meshes or many shapes only where they have not."""
-    bodies = MovingBodies(model)
-    if len(bodies.carriers) > _MOST:
+    bodies = moving_bodies(model, _MOST)
+    if bodies is None:
         return
     for search in (_hidden, _coincident, _crossing):
         found = list(search(model, bodies))

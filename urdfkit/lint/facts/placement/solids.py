@@ -142,3 +142,9 @@ class MovingBodies:
         for one in found:  # The list grows during the iteration.
             found += [name for name, (carrier, _) in self.carriers.items() if carrier == one and name not in found]
         return found
+
+
+def moving_bodies(model: Model, most: int) -> MovingBodies | None:
+    """Return the moving bodies of a robot; None if it has more than `most` moving joints."""
+    count = sum(joint.type != "fixed" for joint in model.robot.joints)
+    return MovingBodies(model) if count <= most else None
