@@ -24,7 +24,7 @@ class InertiaTooLarge(RobotRule):
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all visual
     and collision shapes of the link. Collision shapes often cover only a part of the body. Therefore, a link without
     visuals is reported only if the radius exceeds three times the distance. Links with an unreadable mesh are not
-    checked. A link that is fixed to a body with more than twenty times its mass and inertia is reported as a note.
+    checked. If fixed joints attach the link to one with more than twenty times its mass and inertia, it is a note.
 
     ## Why is this bad?
     However the mass is distributed inside the shapes, √(I/m) cannot exceed that distance. The link rotates as if it
@@ -87,5 +87,5 @@ class InertiaTooLarge(RobotRule):
         for link, element, message in implausible:
             place, help = place_and_help(element, plausible)
             fix = computed(model, link, element)
-            severity: Severity | None = "note" if bodies.is_negligible(link) else None
+            severity: Severity | None = "note" if bodies.is_small(link) else None
             yield self.at(model, place, message, link=link.name, help=help, fix=fix, severity=severity)
