@@ -20,7 +20,8 @@ class ControlJointRepeated(RobotRule):
 
     ## What it does
     Checks for a joint that one ``<ros2_control>`` names twice, and for two transmissions of one joint with the same
-    hardware interface. If one moving joint of the robot has no entry, the message names it.
+    hardware interface. The message names the likely intended joint if exactly one moving joint of the robot has no
+    entry.
 
     ## Why is this bad?
     The hardware component is not loaded, or the second entry is ignored. Usually the entry was copied without changing

@@ -12,10 +12,10 @@ class HardwareWithoutPlugin(RobotRule):
     """The ``<hardware>`` of ``<ros2_control>`` runs in Gazebo, but no Gazebo plugin loads it.
 
     ## What it does
-    Checks for robots whose ``<hardware>`` is that of gz_ros2_control, ign_ros2_control or gazebo_ros2_control and that
-    include none of the corresponding plugins. Other hardware is reported as a note if the robot has plugins or sensors
-    for Gazebo. Nothing is reported if another file of the package names such a plugin. With ``--target urdfkit``,
-    hardware that no plugin of the robot runs is reported as a warning, as in ``urdfkit sim``. Mock hardware is
+    Checks for robots that use the ``<hardware>`` of gz_ros2_control, ign_ros2_control or gazebo_ros2_control without
+    the corresponding plugin. Other hardware is reported as a note if the robot has plugins or sensors for Gazebo.
+    Nothing is reported if another file of the package names such a plugin. With ``--target urdfkit``, hardware that no
+    plugin of the robot loads is reported as a warning. `urdfkit sim` prints the same warning. Mock hardware is
     accepted, because ``urdfkit sim`` treats it as an ideal actuator.
 
     ## Why is this bad?

@@ -24,10 +24,10 @@ class HardwareMismatch(RobotRule):
     ## What it does
     Each plugin that runs the controller manager in Gazebo has its own hardware: ``gazebo_ros2_control/GazeboSystem``
     for gazebo_ros2_control, ``gz_ros2_control/GazeboSimSystem`` for gz_ros2_control, and
-    ``ign_ros2_control/IgnitionSystem`` for ign_ros2_control. The rule reports hardware of another plugin, and names
-    that nearly match one of these or ``mock_components/GenericSystem``, also in branches of ``xacro:if`` that are not
-    expanded. Other hardware is reported as a note if the robot has such a plugin, because its joints are not controlled
-    in a simulation.
+    ``ign_ros2_control/IgnitionSystem`` for ign_ros2_control. The rule reports hardware of another plugin, and
+    misspellings of these names and of ``mock_components/GenericSystem``. Branches of ``xacro:if`` that are not expanded
+    are checked too. Other hardware is reported as a note if the robot has such a plugin, because Gazebo does not
+    control the joints of that hardware.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
     ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware. After Humble,

@@ -8,7 +8,7 @@ _TYPES = ("system", "sensor", "actuator")
 
 
 class Ros2ControlTypeUnknown(RobotRule):
-    """A ``<ros2_control>`` block has an unknown type, or none.
+    """A ``<ros2_control>`` block has an unknown type, or no type.
 
     ## What it does
     Checks for ``<ros2_control type="…">`` values other than ``system``, ``sensor`` and ``actuator``, and for blocks

@@ -12,7 +12,7 @@ class TransmissionInterfaceMissing(RobotRule):
 
     ## What it does
     Checks for ``<joint>`` elements of transmissions without ``<hardwareInterface>``. The finding is an error if the
-    robot uses gazebo_ros_control. Transmissions in the syntax of the PR2, with their type in an attribute, are not
+    robot uses gazebo_ros_control. Transmissions in the PR2 syntax, which have the type in an attribute, are not
     checked.
 
     ## Why is this bad?

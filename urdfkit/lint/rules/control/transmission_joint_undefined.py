@@ -13,7 +13,7 @@ class TransmissionJointUndefined(RobotRule):
     ## What it does
     Compares the joints of ``<transmission>`` with the joints of the robot. If the robot uses gazebo_ros_control, a
     joint without exactly one degree of freedom, such as a fixed joint, is reported as a warning. Transmissions with
-    several joints are accepted, because a chain for the dynamics of the robot may end at a fixed joint.
+    several joints are not checked for this, because a kinematic chain may end at a fixed joint.
 
     ## Why is this bad?
     The transmission is skipped with a log message, and controllers for the joint do not start. A simulation with

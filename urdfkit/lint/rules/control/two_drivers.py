@@ -11,12 +11,12 @@ class TwoDrivers(RobotRule):
     """A joint is driven by a controller and by another Gazebo plugin.
 
     ## What it does
-    In robots with gazebo_ros_control, checks for joints that have a transmission and are also moved by a drive plugin
-    or joint controller of the same Gazebo generation. The same applies to joints with a command interface in
+    In robots with gazebo_ros_control, checks for joints that have a transmission and that a drive plugin or joint
+    controller of the same Gazebo generation also moves. The same applies to joints with a command interface in
     ``<ros2_control>`` if its hardware runs in Gazebo. Sensors and publishers only read their joints.
 
     ## Why is this bad?
-    Both set the joint in every step, so the joint jerks or follows the plugin that runs last.
+    The controller and the plugin both set the joint in every step, so the joint jerks or follows whichever runs last.
 
     ## Example
     ```diff

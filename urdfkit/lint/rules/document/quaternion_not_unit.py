@@ -20,8 +20,8 @@ class QuaternionNotUnit(RobotRule):
     reported as an error.
 
     ## Why is this bad?
-    The numbers are in the wrong order, or were not copied from a quaternion. urdfdom, Pinocchio and urdfkit normalise
-    the quaternion, and read zero as no rotation; other readers scale the part or reject the robot.
+    The numbers are in the wrong order, or do not come from a quaternion. urdfdom, Pinocchio and urdfkit normalise the
+    quaternion and read a zero quaternion as no rotation. Other readers scale the part or reject the robot.
 
     ## Example
     ```diff

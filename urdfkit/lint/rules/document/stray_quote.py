@@ -18,8 +18,8 @@ class StrayQuote(RobotRule):
     """A value contains a stray quote, a backtick or an invisible character.
 
     ## What it does
-    Checks expanded values for a quote on one side only, for surrounding backticks and typographic quotes, and for
-    invisible characters (no-break space, zero-width space).
+    Checks expanded values for a quote on one side only, surrounding backticks or typographic quotes, and invisible
+    characters (no-break space, zero-width space).
 
     ## Why is this bad?
     Such characters often come from text copied from a web page. The name no longer matches, and references to it fail.

@@ -17,7 +17,8 @@ class UrdfVersionTooLow(RobotRule):
 
     ## Why is this bad?
     Readers ignore attributes of a later version: without ``quat_xyzw`` the part has no rotation. urdfdom drops the
-    collision or visual with the capsule; MuJoCo, PyBullet and urdfkit read capsules in every version.
+    ``<collision>`` or ``<visual>`` element that contains a capsule. MuJoCo, PyBullet and urdfkit read capsules in every
+    version.
 
     ## Example
     ```diff

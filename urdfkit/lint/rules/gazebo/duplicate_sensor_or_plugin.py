@@ -15,7 +15,7 @@ class DuplicateSensorOrPlugin(RobotRule):
     reported as a note, because in ROS 2 the name of the plugin is the name of its node; in ROS 1 they have no effect.
 
     ## Why is this bad?
-    SDF requires unique names: Gazebo rejects the model, or both publish on the same topic.
+    SDF requires unique names: Gazebo rejects the model, or both sensors or plugins publish on the same topic.
 
     ## Example
     ```diff

@@ -10,7 +10,8 @@ class GazeboMaterialUnknown(RobotRule):
 
     ## What it does
     Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo Classic. Names without the prefix
-    ``Gazebo/`` are accepted, because scripts of the robot may define them, unless only that prefix is missing.
+    ``Gazebo/`` are accepted, because scripts of the robot may define them. Such a name is reported only if it is a
+    Gazebo material without the prefix.
 
     ## Why is this bad?
     Gazebo logs "Unable to find material" and shows the link in white.

@@ -76,8 +76,8 @@ class GazeboUnknownTag(RobotRule):
     ## What it does
     Compares the elements of the block with the names that sdformat converts to friction, stiffness, colour and other
     properties, and suggests the nearest one. Names that resemble none of them are accepted, because they may be SDF.
-    ``preserveFixedJoint`` in the block of a link is reported, because only joints have this property.
-    The content of a ``<sensor>`` is SDF, so every element that SDF does not define there is reported.
+    ``preserveFixedJoint`` in the block of a link is reported, because only joints have this property. The content of a
+    ``<sensor>`` is SDF, so every element that SDF does not define for sensors is reported.
 
     ## Why is this bad?
     sdformat copies an unknown element unchanged, and Gazebo ignores it: ``<mu>`` sets no friction, ``<selfcollide>``

@@ -7,11 +7,11 @@ class OdometryPublishedTwice(RobotRule):
     """A Gazebo drive and a filter of robot_localization publish the same transform.
 
     ## What it does
-    Checks drives with ``publish_odom_tf`` or ``publishOdomTF`` written as true, if a YAML file of the package or of a
-    related package configures a filter of robot_localization that publishes the transform from the odometry frame.
+    Checks drives that set ``publish_odom_tf`` or ``publishOdomTF`` to true. Reports them if a YAML file of the package
+    or a related package configures a filter of robot_localization that publishes the transform from the odometry frame.
 
     ## Why is this bad?
-    Two nodes publish different poses of the same frame: the robot jumps between them on the map.
+    Two nodes publish different poses of the same frame, so the robot jumps between these poses on the map.
 
     ## Example
     ```diff

@@ -11,8 +11,8 @@ class PartNotSimulated(RobotRule):
     With ``--target urdfkit``, checks for plugins, sensors and controllers of types that urdfkit does not simulate.
 
     ## Why is this bad?
-    The simulation runs without the part, and with ``--strict`` it rejects the robot. The part may work in Gazebo or on
-    the real robot, so it is reported only for this target.
+    The simulation runs without the part, or rejects the robot with ``--strict``. The part may work in Gazebo or on the
+    real robot, so it is reported only for this target.
 
     ## Example
     ```diff

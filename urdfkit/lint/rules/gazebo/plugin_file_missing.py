@@ -13,8 +13,8 @@ class PluginFileMissing(RobotRule):
 
     ## What it does
     Checks that the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control exists. Files outside of known
-    packages, and files that the build may generate, are reported as notes, because a simulation with urdfkit ignores
-    the plugin without its file.
+    packages, and files that the build may generate, are reported as notes, because `urdfkit sim` ignores a plugin whose
+    file is missing.
 
     ## Why is this bad?
     The controller manager starts without controllers, or crashes the simulator.

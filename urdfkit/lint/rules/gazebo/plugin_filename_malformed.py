@@ -10,8 +10,8 @@ class PluginFilenameMalformed(RobotRule):
     """The file name of a plugin is missing or malformed.
 
     ## What it does
-    Checks for plugins without ``filename``, for white space and line breaks in it, for a class such as
-    ``gz::sim::systems::Imu`` in its place, and for libraries of Gazebo Classic without the prefix ``lib`` or the suffix
+    Checks for plugins without ``filename``, and for a ``filename`` that contains white space or line breaks, is a class
+    such as ``gz::sim::systems::Imu``, or names a library of Gazebo Classic without the prefix ``lib`` or the suffix
     ``.so``.
 
     ## Why is this bad?

@@ -9,11 +9,11 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginInWrongSensor(RobotRule):
-    """A plugin is in a sensor of a type that it does not accept, or in none.
+    """A plugin is outside of a sensor, or in a sensor of a type that it does not accept.
 
     ## What it does
-    Checks the sensor around each plugin of gazebo_ros_pkgs and velodyne_simulator that publishes the data of a sensor:
-    `libgazebo_ros_gpu_laser.so`, for example, accepts only sensors of type `gpu_ray`.
+    Checks the plugins of gazebo_ros_pkgs and velodyne_simulator that publish the data of a sensor.
+    `libgazebo_ros_gpu_laser.so`, for example, must be in a sensor of type `gpu_ray`.
 
     ## Why is this bad?
     Gazebo Classic stops loading the plugin, and nothing is published.

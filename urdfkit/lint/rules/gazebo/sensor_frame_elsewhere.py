@@ -12,15 +12,15 @@ _AWAY = 0.05
 
 
 class SensorFrameElsewhere(RobotRule):
-    """A lidar or camera names the frame of another place as that of its data.
+    """A lidar or camera publishes its data in the frame of another place.
 
     ## What it does
     Compares ``frameName``, ``frame_name`` and ``gz_frame_id`` of lidars and cameras with the link of the sensor.
     Reports the frame of a link that is at least 5 cm away from it. Sensors with a ``<pose>`` other than zero are not
-    checked. No sensor of two hundred public robots names such a frame.
+    checked. None of two hundred public robots has such a sensor.
 
     ## Why is this bad?
-    All data are shifted: walls of the map and obstacles are next to where they should be.
+    All data are shifted, so obstacles and walls appear in the wrong place on the map.
 
     ## Example
     ```diff

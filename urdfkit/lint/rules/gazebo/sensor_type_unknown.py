@@ -26,11 +26,11 @@ _MISNOMERS = {
 
 
 class SensorTypeUnknown(RobotRule):
-    """A sensor has an unknown type or none.
+    """A sensor has an unknown type, or no type.
 
     ## What it does
-    Checks for a ``type`` of a ``<sensor>`` that nearly matches an SDF type or is a common misnomer, and, for Gazebo
-    Classic, for types that only Gazebo Sim supports. Other types are accepted, because plugins may define their own.
+    Checks for a ``<sensor>`` whose ``type`` nearly matches an SDF type or is a common wrong name. For Gazebo Classic,
+    also checks for types that only Gazebo Sim supports. Other types are accepted, because plugins may define their own.
 
     ## Why is this bad?
     Gazebo reports "Unable to create sensor" and publishes nothing.

@@ -16,8 +16,8 @@ class TopicWithBlank(RobotRule):
     """A topic name contains white space or another invalid character.
 
     ## What it does
-    Checks the topics of sensors and known plugins, remappings and namespaces for white space. White space around a
-    name is ignored. Letters, digits, ``_``, ``/``, ``.``, ``:``, ``~`` and ``-`` are valid.
+    Checks the topics of sensors and known plugins, remappings and namespaces for characters other than letters, digits,
+    ``_``, ``/``, ``.``, ``:``, ``~`` and ``-``. White space around a name is ignored.
 
     ## Why is this bad?
     ROS throws "invalid topic name" and Gazebo does not advertise the topic, so no program receives the sensor data.

@@ -6,7 +6,7 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ValueAttributeInSdf(RobotRule):
-    """A value is given as an attribute where SDF expects text.
+    """A value is written as an attribute where SDF expects text.
 
     ## What it does
     Checks inside ``<sensor>``, ``<visual>``, ``<collision>`` and ``<surface>`` of ``<gazebo>`` for elements that have

@@ -35,10 +35,10 @@ class CollisionUnlikeVisual(RobotRule):
     """The collision shape of a link differs from its visual shape in orientation, place or size.
 
     ## What it does
-    Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in
-    different poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision
-    shape that is three times larger or smaller in all directions than a visual shape of the same kind, boxes of which
-    two sides are, and wheels with two radii.
+    Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in different
+    poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision shape that
+    is at least three times larger or smaller than a visual shape of the same kind in all directions, a collision box
+    for which this holds on two sides, and wheels whose visual and collision radius differ.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was

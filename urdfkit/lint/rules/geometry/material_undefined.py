@@ -26,7 +26,7 @@ class MaterialUndefined(RobotRule):
     """A material is used but not defined.
 
     ## What it does
-    Checks for ``<material name="…"/>`` without colour or texture whose name no other material of the robot defines.
+    Checks for ``<material name="…"/>`` without colour or texture if no other material of the robot defines this name.
 
     ## Why is this bad?
     check_urdf warns, RViz shows the shape in a default colour, and other readers reject the robot.

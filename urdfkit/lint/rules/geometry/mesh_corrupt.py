@@ -52,7 +52,7 @@ class MeshCorrupt(RobotRule):
     If trimesh is installed, it reads the formats that the linter cannot read.
 
     ## Why is this bad?
-    Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
+    Viewers show nothing. Simulators stop with an error message that does not name the cause.
 
     ## Example
     ```diff

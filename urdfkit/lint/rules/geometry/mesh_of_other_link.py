@@ -12,9 +12,9 @@ class MeshOfOtherLink(RobotRule):
     """The visual and collision meshes of a link belong to two different links.
 
     ## What it does
-    Compares the file names, without suffix, of the visual and collision mesh of links that have one of each. Reports a
-    link whose two meshes have different names if both meshes of another link have one of these names. Robots in which
-    most links have two meshes of different names are not checked.
+    Compares the file names, without suffix, of the visual mesh and the collision mesh in links with one mesh of each
+    kind. If the two names differ, the link is reported if another link uses one of the names for both its meshes.
+    Robots in which most links have two meshes of different names are not checked.
 
     ## Why is this bad?
     A part is drawn in the shape of another part, or collides with it. The usual cause is a copied ``<mesh>``.

@@ -12,7 +12,7 @@ class MeshPackageUnknown(RobotRule):
 
     ## What it does
     Looks up the packages of ``package://`` and ``model://`` in the workspace and the environment. All meshes of one
-    missing package are a single finding.
+    missing package are reported in a single finding.
 
     ## Why is this bad?
     The robot is shown without its meshes. The package name may be misspelt, or the package may be missing on this

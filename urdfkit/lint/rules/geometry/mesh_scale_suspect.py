@@ -32,12 +32,11 @@ class MeshScaleSuspect(RobotRule):
 
     ## What it does
     Compares the scaled size of a mesh with the median of the distances between joints and the sizes of the other
-    shapes.
-
-    All meshes may have the same wrong scale. Therefore, meshes of more than 50 m are also compared with sizes that do
-    not depend on meshes: distances between joints, boxes, cylinders and spheres. If the robot has none of these, a mesh
-    is compared with the radius of gyration √(I/m) of its link. If the link has no inertia either, meshes of more than
-    100 m are reported. Buildings and grounds, recognised by the names of the root link and of its mesh, may be large.
+    shapes. Because all meshes may have the same wrong scale, meshes of more than 50 m are also compared with sizes that
+    do not depend on meshes: distances between joints, and the sizes of boxes, cylinders and spheres. If the robot has
+    none of these, a mesh is compared with the radius of gyration √(I/m) of its link. If the link has no inertia either,
+    meshes of more than 100 m are reported. Buildings and ground planes, recognised by the names of the root link and
+    its mesh, are not checked.
 
     ## Why is this bad?
     CAD programs often export millimetres, but URDF expects metres. The part is huge, or too small to see.

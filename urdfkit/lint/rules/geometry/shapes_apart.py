@@ -19,10 +19,11 @@ class ShapesApart(RobotRule):
     """A shape of a link is far from the other shapes of the link.
 
     ## What it does
-    Checks for shapes that extend ten times farther from the centre of mass than the other shapes of their link, and so
-    far that the inertia contradicts them (by the criterion of I508). Meshes that are too large are reported by G604.
-    Two kinds of shapes are not checked. Visuals that are more than half transparent often show the view of a sensor.
-    Collision spheres around the whole link, of up to a hundred times its size, keep obstacles away.
+    Checks for shapes that extend ten times farther from the centre of mass than the other shapes of their link, if the
+    inertia of the link is also too small for this distance (by the criterion of I508). Meshes that are too large are
+    reported by G604. Two kinds of shapes are not checked. One kind is visual shapes that are more than half
+    transparent, because they often show the view of a sensor. The other kind is collision spheres around the whole
+    link, of up to a hundred times its size, because they keep obstacles away.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. The usual

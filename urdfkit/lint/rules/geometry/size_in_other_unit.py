@@ -21,7 +21,8 @@ class SizeInOtherUnit(RobotRule):
     ## What it does
     Compares boxes, cylinders, spheres and capsules with the median of the distances between joints and the sizes of the
     other shapes. Reports shapes of more than 50 times that median and more than 2 m. The root link is not checked,
-    because it may be a ground. Links whose density I514 reports are not checked either. G604 checks meshes.
+    because it may be a ground. Links with an implausible density, which I514 reports, are not checked either. G604
+    checks meshes.
 
     ## Why is this bad?
     The shape hides the robot and collides with everything. Usually its size was written in millimetres.

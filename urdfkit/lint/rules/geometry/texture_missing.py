@@ -13,8 +13,8 @@ class TextureMissing(RobotRule):
     """A visual shape has a texture whose image does not exist or cannot be read.
 
     ## What it does
-    Checks the images of ``<texture>`` and of OBJ, COLLADA and glTF meshes. The image of a mesh may be at
-    its path relative to the mesh, next to the mesh, or in ``materials/textures`` next to the folder of the mesh.
+    Checks the images of ``<texture>`` and of OBJ, COLLADA and glTF meshes. The image of a mesh is searched for at its
+    path relative to the mesh, next to the mesh, and in ``materials/textures`` next to the folder of the mesh.
 
     ## Why is this bad?
     Viewers and camera images show the shape in one colour, often white or black, and usually without a message. The

@@ -10,9 +10,9 @@ class WheelOffItsAxis(RobotRule):
     """A wheel is drawn off its axis of rotation.
 
     ## What it does
-    Checks links of continuous joints, or of joints without a type, whose visual is a single cylinder along the axis or
-    a single sphere. The centre of the shape must lie on the axis. A sphere is accepted if its collision shape has the
-    same offset, because it is probably a swivel caster.
+    Checks the child links of continuous joints, and of joints without a type, if the only visual shape is a sphere or a
+    cylinder along the axis. The centre of the shape must lie on the axis. A sphere is accepted if the collision shape
+    has the same offset, because the link is probably a swivel caster.
 
     ## Why is this bad?
     The wheel orbits its axis instead of rolling. The usual cause is an origin that was copied from another link; the

@@ -8,11 +8,11 @@ class CollisionWithoutInertial(RobotRule):
     """A link has a collision shape but no mass.
 
     ## What it does
-    Checks for links with ``<collision>`` and without ``<inertial>`` that are fixed to another link, in robots that have
-    masses elsewhere or are simulated.
+    Checks for links with ``<collision>`` and without ``<inertial>`` that are fixed to another link. Robots without any
+    mass are checked only if they are simulated.
 
     ## Why is this bad?
-    Gazebo keeps such a link only if it merges the link into another one at a fixed joint.
+    Gazebo keeps such a link only if it merges the link into another link at a fixed joint.
 
     ## Example
     ```diff

@@ -30,12 +30,12 @@ class ComOutsideGeometry(RobotRule):
 
     ## What it does
     Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link. A
-    centre of mass inside the box is also reported if the link has a single shape, the inertia is that of this shape
-    about its own centre, and the centre of mass is elsewhere. A centre of mass that is the centre of one of several
-    shapes except for the sign of a coordinate is reported too.
+    centre of mass inside the box is reported in two cases: if the link has a single shape, and the inertia is that of
+    this shape about a centre other than the centre of mass; and if the centre of mass becomes the centre of one of
+    several shapes when the sign of one coordinate changes.
 
-    Collision shapes often cover only a part of the body. Therefore, a link without visuals is reported only if the
-    distance exceeds the diagonal of the box. Links with an unreadable mesh are not checked.
+    Collision shapes often cover only a part of the body. Therefore, a link without visual shapes is reported only if
+    the distance exceeds the diagonal of the box. Links with an unreadable mesh are not checked.
 
     ## Why is this bad?
     The robot tips over, or swings as if its mass hung next to it. The usual cause is an origin of the shape that was

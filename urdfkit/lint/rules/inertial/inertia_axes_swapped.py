@@ -22,8 +22,8 @@ class InertiaAxesSwapped(RobotRule):
     ## What it does
     Compares ixx, iyy and izz of each link with the moments of its shapes with uniform density. Reports the tensor if it
     differs from them, but agrees to 10 % in another order of the axes, or to 2 % with the moments of a cylinder with
-    radius and length swapped. If the order differs, a common factor of the three moments is ignored. Meshes count as
-    their bounding boxes.
+    radius and length swapped. When it compares another order, the rule ignores a common factor of the three moments.
+    Meshes are replaced by their bounding boxes.
 
     ## Why is this bad?
     The link accelerates too easily about one axis and too slowly about another. Often the cylinder of a wheel was

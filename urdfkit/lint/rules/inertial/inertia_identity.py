@@ -17,9 +17,9 @@ class InertiaIdentity(RobotRule):
 
     ## What it does
     Checks for ixx = iyy = izz = 1 with zero products of inertia. The tensor is accepted if the link's shapes are large
-    enough for it and, at uniform density, have a largest moment between 0.1 and 25 kg·m², or if fixed joints attach it
-    to a link ``world``. The root link of a robot that is not simulated is reported as a note, because it often stands
-    still.
+    enough for it and their largest moment at uniform density is between 0.1 and 25 kg·m². It is also accepted if fixed
+    joints attach the link to a link ``world``. The finding is a note for the root link of a robot that is not
+    simulated, because such a link often stands still.
 
     ## Why is this bad?
     1 kg·m² is the inertia of a refrigerator. Wheels and fingers with this inertia hardly accelerate.

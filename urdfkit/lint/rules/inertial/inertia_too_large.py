@@ -23,13 +23,14 @@ class InertiaTooLarge(RobotRule):
     ## What it does
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all visual
     and collision shapes of the link. Collision shapes often cover only a part of the body. Therefore, a link without
-    visuals is reported only if the radius exceeds three times the distance. Links with an unreadable mesh are not
-    checked. If fixed joints attach the link to one with more than twenty times its mass and inertia, it is a note.
+    visual shapes is reported only if the radius exceeds three times the distance. Links with an unreadable mesh are not
+    checked. The finding is a note if fixed joints attach the link to a body with more than twenty times its mass and
+    inertia.
 
     ## Why is this bad?
     However the mass is distributed inside the shapes, √(I/m) cannot exceed that distance. The link rotates as if it
-    were much larger: wheels hardly accelerate and arms swing like flywheels. Often the tensor was copied, or is in
-    g·mm².
+    were much larger: wheels hardly accelerate and arms swing like flywheels. Often the tensor was copied from another
+    link, or is in g·mm².
 
     ## Example
     ```diff

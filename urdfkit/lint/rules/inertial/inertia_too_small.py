@@ -24,7 +24,7 @@ class InertiaTooSmall(RobotRule):
 
     ## What it does
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of the link's
-    shapes. A radius below a twentieth of that distance concentrates nearly all the mass in one point.
+    shapes. Reports a radius below a twentieth of that distance: nearly all the mass would be concentrated in one point.
 
     ## Why is this bad?
     Light parts on strong joints make simulations jitter, and the integrator needs tiny steps.

@@ -10,12 +10,12 @@ class InertiaTransposed(RobotRule):
     """The entries of an inertia tensor are in the wrong order.
 
     ## What it does
-    Checks for physically impossible tensors, and reorders their entries by the conventions of other programs. Reports
-    the tensor if exactly one of these orders gives a possible tensor.
+    Checks physically impossible tensors: reads their entries in the orders that other programs use, and reports the
+    tensor if exactly one of these orders makes it possible.
 
     ## Why is this bad?
     URDF expects ixx, ixy, ixz, iyy, iyz, izz. A moment in the place of a product makes the tensor impossible: MuJoCo
-    and sdformat reject it, and other simulators compute a wrong motion.
+    and sdformat reject the tensor, and other simulators compute a wrong motion.
 
     ## Example
     ```diff

@@ -9,8 +9,8 @@ class InertiaZero(RobotRule):
     """A link has a mass but zero inertia.
 
     ## What it does
-    Checks for tensors of zeros on links with a mass. The finding is an error if a joint moves the link, and a note if
-    the link is fixed to others and therefore represents a point mass.
+    Checks for tensors of zeros on links with a mass. The finding is an error if a joint moves the link. It is a note if
+    the link is fixed to others, because the link then represents a point mass.
 
     ## Why is this bad?
     Nothing resists the rotation of the link: simulators divide by zero, and MuJoCo rejects the model.

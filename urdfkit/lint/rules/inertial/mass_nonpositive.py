@@ -11,9 +11,9 @@ class MassNonpositive(RobotRule):
     """A moving link has no mass, or a link has a negative mass.
 
     ## What it does
-    Checks for a negative ``<mass>``. A mass of zero is reported in two cases: if a joint moves the link and no link
-    fixed to it has a mass, and if the link has a shape and an inertia and is not fixed to another link. It is a warning
-    for robots that are not simulated.
+    Checks for a negative ``<mass>``. Also reports a mass of zero in two cases: if a joint moves the link and no link
+    fixed to it has a mass, and if the link has a shape and an inertia and is not fixed to another link. A mass of zero
+    is only a warning for robots that are not simulated.
 
     ## Why is this bad?
     Simulators divide by the mass. check_urdf accepts a mass of zero, Gazebo drops the link, and MuJoCo rejects the

@@ -10,15 +10,15 @@ class MovingLinkWithoutInertial(RobotRule):
     """A link that moves has no mass or no inertia.
 
     ## What it does
-    Checks for links that move, because a joint moves them or the robot has no root link ``world``, if neither the link
-    nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
-    ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
-    warning.
+    Checks for links that can move although neither the link nor any link fixed to it has a mass and a tensor. A link
+    can move if a joint moves it, or if the robot has no root link ``world``. The finding is an error for simulators:
+    with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For
+    other robots it is a warning.
 
-    A robot without any ``<inertial>`` has a single finding if at least two of these conditions hold: joints move its
-    links, these links have shapes, and the target is a simulator. Otherwise the finding is a note, and a robot without
-    collision shapes is not reported. Without such a target, it is also a note if the robot has no ``<gazebo>``,
-    ``<transmission>`` and ``<ros2_control>``, because such a robot describes only kinematics.
+    A robot without any ``<inertial>`` has a single finding. This finding is a note in two cases: if fewer than two of
+    the conditions "joints move links", "these links have shapes" and "the target is a simulator" hold, and if the
+    target is no simulator and the robot has no ``<gazebo>``, ``<transmission>`` or ``<ros2_control>``. In the first
+    case, a robot without collision shapes is not reported.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the

@@ -13,13 +13,13 @@ class AxesOnOneLine(RobotRule):
     """Two consecutive joints turn about the same line.
 
     ## What it does
-    Checks for a ``revolute`` or ``continuous`` joint whose axis is on the line of the axis of the moving joint that
-    carries it. Mimic joints and parts that spin on their own, such as wheels, rotors and lidars, are not checked. If
-    three joints are on one line, the middle one is reported.
+    Checks for a ``revolute`` or ``continuous`` joint whose axis is on the same line as the axis of the moving joint
+    that carries it. Mimic joints and parts that spin on their own, such as wheels, rotors and lidars, are not checked.
+    If three joints are on one line, the middle joint is reported.
 
     ## Why is this bad?
-    Both joints make the same motion, so the robot has fewer degrees of freedom than joints, and the inverse kinematics
-    have no unique solution. Usually the ``<axis>`` was copied from the neighbouring joint.
+    Both joints make the same motion, so the robot has fewer degrees of freedom than joints, and inverse kinematics has
+    no unique solution. Usually the ``<axis>`` was copied from the neighbouring joint.
 
     ## Example
     ```diff

@@ -7,14 +7,14 @@ class JointOffItsParent(RobotRule):
     """A joint is outside or inside its parent link; all other joints are on the surface of their parent links.
 
     ## What it does
-    Compares the places of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the boxes
-    around the shapes of their parent links. Joints that steer wheels are not compared. If at least four joints are
-    exactly on the surface and one is not, this one is reported: it is at a distance from the shape, or so deep inside
-    that its child link is in the parent link. The stage of a telescope, below a prismatic joint, may be inside.
+    Compares the positions of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the
+    bounding boxes of their parent links. Joints that steer wheels are not compared. A joint is reported if it is away
+    from the shape, or so deep inside that its child link is inside the parent link, while at least four other joints
+    are exactly on the surface. A telescope stage on a prismatic joint may be inside.
 
     ## Why is this bad?
-    The child link floats or is sunk in its parent link, and all frames below are in the wrong place. Usually the length
-    of another link was used, or the joint has the wrong parent link.
+    The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually
+    the offset was computed with the length of another link, or the joint has the wrong parent link.
 
     ## Example
     ```diff

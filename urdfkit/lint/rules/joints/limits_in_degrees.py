@@ -12,7 +12,7 @@ class LimitsInDegrees(RobotRule):
     """The limits of a joint appear to be in degrees.
 
     ## What it does
-    Checks the limits of ``revolute`` joints for integers and half-integers greater than two turns (4π) and up to 360.
+    Checks the limits of ``revolute`` joints for multiples of 0.5 that are greater than two turns (4π) and at most 360.
 
     ## Why is this bad?
     Limits are in radians: a limit of 90 rad allows more than fourteen turns. No tool reports an error, and the joint

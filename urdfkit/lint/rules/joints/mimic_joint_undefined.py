@@ -14,8 +14,8 @@ class MimicJointUndefined(RobotRule):
     ## What it does
     Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
     contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either. Also
-    reports joints that mimic one of the other side, if their own side has that joint and it mimics no other, and mimic
-    plugins of Gazebo Classic that name undefined joints, or the two joints in the other order.
+    reports a joint that mimics a joint of the other side of the robot although its own side has the corresponding
+    joint, and mimic plugins of Gazebo Classic that name undefined joints or swap the two joints.
 
     ## Why is this bad?
     Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.

@@ -22,14 +22,15 @@ class SlideOffItsParent(RobotRule):
     """A prismatic joint moves its child link off the parent link.
 
     ## What it does
-    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if they touch
-    with the joint at zero, have a gap of 10 % of the stroke at a limit, and touch at both limits with another axis of
-    the joint frame, or along the parent link, if that is a rail: three times as long as wide. A column that is longer
-    than its stroke may rise out of its parent link.
+    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if the boxes
+    touch with the joint at zero but are apart by 10 % of the stroke at a limit. In addition, the boxes must touch at
+    both limits if the joint moves along another axis of its frame. If the parent link is a rail (three times as long as
+    wide), they must touch at both limits if the joint moves along the rail. A column that is longer than its stroke may
+    rise out of its parent link.
 
     ## Why is this bad?
-    The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x.
-    Otherwise, the limits are often twice as large as intended, because each of them has the whole stroke.
+    The carriage leaves its rail. Usually the ``<axis>`` was copied from another joint, or is missing and defaults to x.
+    Sometimes each limit is set to the whole stroke, so that the range is twice as large as intended.
 
     ## Example
     ```diff

@@ -20,10 +20,10 @@ class ExecutableUnknown(RobotRule):
     """A launch file starts an executable that does not exist in its package.
 
     ## What it does
-    Compares the ``exec``, ``type`` or ``executable`` of nodes with the executables that CMakeLists.txt, setup.py or
-    setup.cfg of a package next to the robot's package define; for catkin, also with the files of the package. The rule
-    also checks about fifty common released packages: it reports misspelt executables of all of them, and executables of
-    the other ROS version for some of them.
+    Checks the ``exec``, ``type`` or ``executable`` of nodes of the robot's package and its neighbours. These names are
+    compared with the executables that CMakeLists.txt, setup.py or setup.cfg define and, for catkin, with the files of
+    the package. The rule also checks about fifty common released packages: it reports misspelt executables of all of
+    these packages, and executables of the other ROS version for some of them.
 
     ## Why is this bad?
     The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".

@@ -9,7 +9,7 @@ class ExitHandlerNeverRuns(RobotRule):
     """A launch file starts nodes after the exit of a node that never exits.
 
     ## What it does
-    Checks for ``OnProcessExit`` handlers that start nodes and whose target runs until the launch ends, such as
+    Checks for ``OnProcessExit`` handlers that start nodes although their target runs until the launch ends, such as
     ``ros2_control_node`` or ``robot_state_publisher``.
 
     ## Why is this bad?

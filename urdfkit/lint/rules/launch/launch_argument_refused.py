@@ -7,10 +7,10 @@ class LaunchArgumentRefused(RobotRule):
     """A launch argument has a value that is not one of its choices, or is neither true nor false.
 
     ## What it does
-    Compares the default of an argument, the value that an including launch file passes, and the value in
-    ``LaunchConfigurationEquals`` and ``EqualsSubstitution`` with the ``choices`` of the argument. Also reports defaults
-    and passed values of arguments that are used as conditions, if they are neither true nor false. If an XML launch
-    file compares an argument and its default with several values, other passed values are reported too.
+    Compares the ``choices`` of an argument with its default, with the value that an including launch file passes, and
+    with the value in ``LaunchConfigurationEquals`` and ``EqualsSubstitution``. If the argument is used as a condition,
+    also reports defaults and passed values that are neither true nor false. If an XML launch file compares an argument
+    and its default with several values, other passed values are reported too.
 
     ## Why is this bad?
     The launch stops: "provided value is not valid". A comparison with another value is never true.

@@ -15,10 +15,10 @@ class LaunchArgumentUndeclared(RobotRule):
 
     ## What it does
     Compares the names in ``$(arg …)``, ``$(var …)`` and ``LaunchConfiguration(…)`` with the declared arguments. In ROS
-    2, arguments of other launch files are visible too. There, a name is reported only if no launch file of these
-    packages declares it. It must also be misspelt, or no launch file outside of these packages may be able to declare
-    it. A name is reported as a warning if other launch files declare or pass it, but neither the file nor its included
-    files declare it.
+    2, a launch file can also use the arguments of other launch files. There, a name is reported only if no launch file
+    of these packages declares it, and if it is misspelt or no launch file outside of these packages can declare it. A
+    name is reported as a warning if other launch files declare or pass it, but neither the file nor its included files
+    declare it.
 
     ## Why is this bad?
     The launch fails with "requires the 'model' arg to be set" or "launch configuration 'model' does not exist". With a

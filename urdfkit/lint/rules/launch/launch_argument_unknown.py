@@ -15,9 +15,9 @@ class LaunchArgumentUnknown(RobotRule):
     """A launch file passes an argument that the included launch file or the xacro file does not declare.
 
     ## What it does
-    Compares the arguments of includes with the arguments of launch files in these packages and of common launch files
-    of Gazebo, and those of xacro commands with the ``<xacro:arg>`` elements of the description. Also reports required
-    arguments that are not passed.
+    Compares the arguments of includes with the arguments that launch files in these packages and common launch files of
+    Gazebo declare. Compares the arguments of xacro commands with the ``<xacro:arg>`` elements of the description. Also
+    reports required arguments that are not passed.
 
     ## Why is this bad?
     roslaunch fails with "unused args". ROS 2 and xacro ignore the argument, and the default applies.

@@ -7,13 +7,13 @@ class LaunchConditionInverted(RobotRule):
     """A launch file starts nodes under the opposite of their condition.
 
     ## What it does
-    Checks the conditions of nodes and includes that depend on an argument such as ``use_sim`` or ``sim_mode``: a launch
-    file or node with drivers of sensors or ``ros2_control_node`` must not have the condition that the robot is
-    simulated, and Gazebo must not have the condition that it is not. Included files with both are not checked.
+    Checks the conditions of nodes and includes that depend on an argument such as ``use_sim`` or ``sim_mode``. Sensor
+    drivers, ``ros2_control_node`` and launch files that start them must not be limited to the simulation, and Gazebo
+    must not be limited to the real robot. Included files that start both are not checked.
 
-    A node, include or group that an argument names, such as ``rviz2`` or ``robot_moveit_config`` by ``use_rviz`` or
-    ``moveit``, must not have the condition that the argument is false, unless the file starts another such action if
-    it is true. The reverse holds for arguments such as ``headless`` and ``disable_rviz``.
+    If the name of an argument enables a node, include or group, as ``use_rviz`` enables ``rviz2``, the action must not
+    start when the argument is false, unless the file starts another such action when it is true. The reverse holds for
+    arguments such as ``headless`` and ``disable_rviz``.
 
     ## Why is this bad?
     Drivers start without their devices, the robot starts without its drivers, and the argument does the opposite of

@@ -11,10 +11,10 @@ class LaunchElementInvalid(RobotRule):
     """An XML or YAML launch file has an unknown element or attribute, or lacks a required attribute.
 
     ## What it does
-    Compares elements, attributes and substitutions with those of roslaunch for packages built by catkin, and with those
-    of launch_xml for packages built by ament. In ROS 2, packages can add actions, so unknown elements are reported only
-    if they are misspelt, belong to ROS 1, or are in an element with fixed contents such as ``<node>``. In YAML, the
-    rule checks actions, the keys of actions, parameters, remappings and arguments, and substitutions.
+    Compares elements, attributes and substitutions with the syntax of roslaunch for packages built by catkin, and with
+    the syntax of launch_xml for packages built by ament. In ROS 2, packages can add actions, so unknown elements are
+    reported only if they are misspelt, belong to ROS 1, or are in an element with fixed contents such as ``<node>``. In
+    YAML, the rule checks actions, the keys of actions, parameters, remappings, arguments and substitutions.
 
     ## Why is this bad?
     The launch stops with "Unexpected attribute(s)" or "missing required attribute". roslaunch ignores unknown elements

@@ -14,7 +14,7 @@ class LaunchIncludeCycle(RobotRule):
     once.
 
     ## Why is this bad?
-    The launch includes the file again and again until it stops with an error.
+    The launch file includes itself repeatedly until the launch stops with an error.
 
     ## Example
     ```diff

@@ -41,9 +41,9 @@ class LaunchNameMisspelt(RobotRule):
     - quoted words in launch files that resemble ``use_sim_time``, ``robot_description``, ``joint_states``,
       ``controller_manager`` or a MoveIt plugin
     - keys in YAML files that resemble ``use_sim_time`` or ``robot_description``
-    - topics that the remappings of common nodes replace, and parameters of common nodes such as
-      ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``, also under the names of other nodes
-    - parameters of the nodes of the workspace that their code neither declares nor names
+    - remapped topics and parameters of common nodes, such as ``teleop_twist_joy_node``, ``slam_toolbox`` and
+      ``parameter_bridge``, also if the node has another name
+    - parameters of nodes of the workspace, if the code of the node does not contain the name
     - namespaces of costmaps, which must be ``local_costmap`` or ``global_costmap``
     - worlds without a path, which must be worlds of Gazebo
 

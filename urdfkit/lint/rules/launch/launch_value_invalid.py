@@ -30,13 +30,13 @@ class LaunchValueInvalid(RobotRule):
     ## What it does
     Checks the XML launch files of ROS for:
 
-    - conditions and other Boolean values without substitutions that are neither true nor false, and defaults of
-      arguments that serve as conditions
+    - conditions and other Boolean values that are neither true nor false, and such defaults of arguments that serve as
+      conditions; values with substitutions are not checked
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
-    - parameter files with substitutions but without ``subst_value``, files in the wrong namespace or parameter, and
-      MoveIt files that no launch file loads
+    - parameter files with substitutions but without ``subst_value``, files that are loaded into the wrong namespace or
+      parameter, and MoveIt files that no launch file loads
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,

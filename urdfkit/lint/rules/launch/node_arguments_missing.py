@@ -7,12 +7,15 @@ class NodeArgumentsMissing(RobotRule):
     """A node that needs arguments is started without them.
 
     ## What it does
-    Checks the launch files for programs that stop without arguments: in ROS 1 ``map_server``, ``spawn_model``, the
-    spawner of controllers, ``rosbag play``, the programs of ``topic_tools`` and ``static_transform_publisher``; in
-    ROS 2 the spawner of controllers and ``spawn_entity.py``, ``parameter_bridge`` and ``create`` without parameters,
-    ``map_server`` without ``yaml_filename``, and ``move_group`` without a planning pipeline. Also reports a Gazebo
-    without ``-r`` that no user can start, or on which spawners of controllers wait, and a lifecycle manager whose
-    ``autostart`` is false if nothing calls its service.
+    Checks launch files for programs that stop without arguments:
+
+    - in ROS 1, ``map_server``, ``spawn_model``, the spawner of controllers, ``rosbag play``,
+      ``static_transform_publisher`` and the programs of ``topic_tools``
+    - in ROS 2, the spawner of controllers and ``spawn_entity.py``; ``parameter_bridge`` and ``create`` without
+      parameters; ``map_server`` without ``yaml_filename``; and ``move_group`` without a planning pipeline
+
+    Also reports Gazebo without ``-r`` (it starts paused) if it has no window or if spawners of controllers wait for it,
+    and a lifecycle manager whose ``autostart`` is false if no file calls its service.
 
     ## Why is this bad?
     The node prints its usage message and exits, or waits without effect.

@@ -14,15 +14,15 @@ class PythonLaunchApiMisused(RobotRule):
 
     ## What it does
     Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils`` with the names
-    of all releases from Foxy to Rolling, and the keywords of common actions with those from Galactic to Rolling.
-    Imports inside ``try`` are not checked. The rule reports:
+    in all releases from Foxy to Rolling, and the keywords of common actions with the keywords from Galactic to Rolling.
+    Imports inside ``try`` are not checked. Reports:
 
     - misspelt names, and names that another module defines
     - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
     - lists without brackets, unknown values of ``output``, and ``items`` without a call
     - calls of the file's own functions that lack an argument
     - the string value of a launch argument that is used as a Boolean, or compared with a Boolean
-    - launch files in another format than the class that loads them
+    - launch files whose format does not match the class that loads them
     - event handlers of processes whose target is not a process
 
     ## Why is this bad?

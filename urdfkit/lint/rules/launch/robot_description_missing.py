@@ -15,7 +15,7 @@ class RobotDescriptionMissing(RobotRule):
     ## What it does
     In ROS 2, ``robot_state_publisher`` needs the parameter ``robot_description``, a parameter file or arguments. In ROS
     1, the rule checks launch files that start Gazebo and its spawner, or RViz and joint_state_publisher. The parameter
-    must be set in such a file, in a file that it includes, or in a file that includes it.
+    ``robot_description`` must be set in the launch file, in a file that it includes, or in a file that includes it.
 
     ## Why is this bad?
     The node stops, or the robot does not appear.

@@ -10,10 +10,10 @@ class SimulationTimeInconsistent(RobotRule):
 
     ## What it does
     Checks ROS 2 launch files. Reports filters, localization, navigation servers and ``robot_state_publisher`` without
-    ``use_sim_time`` if another node of the same package in the file has it, and ``move_group``, servo nodes, filters,
-    localization and navigation servers if ``robot_state_publisher`` or RViz has it. In files that always start Gazebo,
-    also reports such nodes and included launch files if their ``use_sim_time`` is false. The rule also reads parameter
-    files. Files that set the parameter for all nodes are not checked.
+    ``use_sim_time`` if another node of the same package in the file sets it. Also reports filters, localization,
+    navigation servers, ``move_group`` and servo nodes without it if ``robot_state_publisher`` or RViz sets it. In files
+    that always start Gazebo, also reports such nodes and included launch files if their ``use_sim_time`` is false.
+    Parameter files are read too. Launch files that set the parameter for all nodes are not checked.
 
     ## Why is this bad?
     The node compares simulation time with system time. It waits for transforms, or drops every message as too old.

@@ -20,8 +20,8 @@ class MoveitConfigurationMissing(RobotRule):
     - a robot that misspells a robot of these packages
     - misspelt methods and keywords, files that do not exist in the package, and planning pipelines without a file
 
-    Also checks the paths of the URDF and of the SRDF in the ``.setup_assistant`` of that package, if the packages are
-    in the workspace.
+    Also checks the paths of the URDF and the SRDF in the ``.setup_assistant`` file of that package, if the packages of
+    these paths are in the workspace.
 
     ## Why is this bad?
     The launch stops: "package not found" or "No such file or directory".

@@ -10,7 +10,7 @@ class MoveitControllerContradiction(RobotRule):
     ## What it does
     Compares the ``type`` and the ``joints`` of MoveIt's controllers with the controllers of the same name in the YAML
     files of these packages. Reports a name without a ROS controller if exactly one other controller has the same
-    joints. Also reports a controller that no launch file spawns, although launch files spawn others.
+    joints. Also reports a controller that no launch file spawns, although launch files spawn other controllers.
 
     ## Why is this bad?
     MoveIt waits for an action that the controller does not offer, or the controller rejects the trajectory: "Joints on

@@ -22,9 +22,9 @@ class SrdfAdjacentPairMissing(RobotRule):
     """An SRDF disables the collisions of adjacent links, except for one pair.
 
     ## What it does
-    Checks pairs of links with collision geometry that a joint connects, in an SRDF that disables most of these pairs.
-    Both links must occur in disabled pairs, unless all other adjacent pairs are disabled. SRDFs with
-    ``enable_collisions`` or ``disable_default_collisions`` are not checked.
+    Checks pairs of links that have collision geometry and are connected by a joint, if the SRDF disables most of these
+    pairs. A pair is reported if both links occur in other disabled pairs, or if all other adjacent pairs are disabled.
+    SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are not checked.
 
     ## Why is this bad?
     The shapes of adjacent links often overlap at the joint. MoveIt then reports every state as a collision and finds no

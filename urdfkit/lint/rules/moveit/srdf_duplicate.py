@@ -14,9 +14,10 @@ class SrdfDuplicate(RobotRule):
     """An SRDF defines a group, state or pair of links twice.
 
     ## What it does
-    Reports groups, states of a group, end effectors, virtual and passive joints with the same name, two virtual joints
-    of one link, and names that occur twice in a group. A pair of links that is disabled twice, and two SRDF files for
-    one robot in the folder ``config``, are reported as notes. A pair of a link with itself is reported as a warning.
+    Reports groups, states of a group, end effectors, virtual joints and passive joints with the same name, two virtual
+    joints of one link, and names that occur twice in a group. A pair of links that is disabled twice, and two SRDF
+    files for one robot in the folder ``config``, are reported as notes. A link that is paired with itself is reported
+    as a warning.
 
     ## Why is this bad?
     MoveIt uses one of the definitions: "A group named 'arm' already exists. Not adding."

@@ -8,7 +8,7 @@ class SrdfOfOtherRobot(RobotRule):
 
     ## What it does
     Compares the names in ``<robot name="…">`` if most links and joints in the SRDF exist in the robot. Nothing is
-    reported if a description in these packages has the name of the SRDF.
+    reported if another description in these packages has the robot name of the SRDF.
 
     ## Why is this bad?
     MoveIt logs "Semantic description is not specified for the same robot as the URDF".

@@ -20,7 +20,7 @@ _COUNT = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating
 
 
 class SrdfStateInvalid(RobotRule):
-    """A state of a group has a value beyond the joint's limits, or the wrong joints.
+    """A state of a group exceeds the limits of a joint, or contains the wrong joints.
 
     ## What it does
     Compares the values of each ``<group_state>`` with the limits and types of the joints, and its joints with the

@@ -8,8 +8,8 @@ class LinkJointSameName(RobotRule):
     """A joint and a link have the same name.
 
     ## What it does
-    Checks for joints that have the name of a link. This is a note for a robot without target and without plugins or
-    sensors of Gazebo, which may never be converted to SDF.
+    Checks for joints that have the name of a link. Without a target, the finding is a note if the robot has no plugins
+    or sensors of Gazebo, because it may never be converted to SDF.
 
     ## Why is this bad?
     URDF allows this, but in SDF links and joints share one namespace. Gazebo rejects the model ("non-unique name") or

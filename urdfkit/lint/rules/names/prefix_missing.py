@@ -25,7 +25,7 @@ class PrefixMissing(SourceRule):
 
     ## What it does
     Checks macros that put a parameter before the names of links and joints, such as ``${prefix}forearm``, for the same
-    name without that parameter. Names that the files of the robot also define without a prefix are accepted.
+    name without that parameter. A name is accepted if the files of the robot also define it without a prefix.
 
     ## Why is this bad?
     The robot is correct as long as the prefix is empty. With a prefix, the name is undefined, or two robots share it.

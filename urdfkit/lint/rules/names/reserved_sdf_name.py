@@ -11,8 +11,8 @@ class ReservedSdfName(RobotRule):
     ``world``.
 
     ## Why is this bad?
-    sdformat, and therefore Gazebo, rejects the model. Names between double underscores and ``world`` are reserved, and
-    ``::`` separates the names of nested models.
+    sdformat, and therefore Gazebo, rejects the model. Names that begin and end with two underscores are reserved, and
+    so is ``world``. ``::`` separates the names of nested models.
 
     ## Example
     ```diff

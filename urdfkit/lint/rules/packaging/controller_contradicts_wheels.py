@@ -20,8 +20,8 @@ class ControllerContradictsWheels(RobotRule):
     Compares ``wheel_separation``, ``wheel_radius`` (``wheels_radius`` of mecanum controllers), and the ``wheelbase``
     and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the positions of
     the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are accepted. With
-    several wheels on each side, up to twice the separation is accepted, because the wheels slip when the robot turns.
-    Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
+    several wheels on each side, a separation of up to twice the distance is accepted, because the wheels slip when the
+    robot turns. Wheels with meshes are not measured. Also reports a left and a right wheel at the same place.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 

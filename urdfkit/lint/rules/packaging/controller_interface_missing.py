@@ -23,7 +23,7 @@ class ControllerInterfaceMissing(RobotRule):
     Compares the types of controllers in YAML (``effort_controllers/…``, ``velocity_controllers/…``,
     ``position_controllers/…`` and ``diff_drive_controller/…``) with the ``<hardwareInterface>`` elements in the
     transmissions of their joints. A joint without a transmission is reported as a note if no joint of the controller
-    has one.
+    has a transmission.
 
     ## Why is this bad?
     The controller does not start: "Could not find resource 'elbow' in 'hardware_interface::EffortJointInterface'".

@@ -8,7 +8,7 @@ class ControllerJointForeign(RobotRule):
 
     ## What it does
     Compares the groups in ``constraints`` and ``gains`` of trajectory controllers with their ``joints``. Names that
-    resemble one of these are reported as misspelt (see K962).
+    resemble a joint of the controller are reported as misspelt by K962.
 
     ## Why is this bad?
     The values have no effect, and the intended joint has the default gains or tolerances.

@@ -11,9 +11,9 @@ class ControllerJointUndefined(RobotRule):
     ## What it does
     Checks the YAML files of the robot's package and of neighbouring packages that depend on it. Compares the joints of
     controllers, and the joints with gains of gazebo_ros_control, with the joints of the robot. Nothing is reported if
-    another description in these packages may define the joint, or if other arguments or conditions may do so. A file
-    belongs to another robot if most of its joints do not exist in this one; its joints are then reported only if they
-    are misspelt. A misspelt joint is reported as an error.
+    the joint may exist in another description in these packages, or with other arguments or conditions. If most joints
+    of a file do not exist in the robot, the file is assumed to belong to another robot, and its joints are reported
+    only if they are misspelt. A misspelt joint is reported as an error.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.

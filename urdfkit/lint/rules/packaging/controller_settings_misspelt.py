@@ -25,8 +25,8 @@ class ControllerSettingsMisspelt(RobotRule):
 
     Misspelt parameters and names of controller sections are reported as warnings. Types that a package of the workspace
     exports are accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo plugin of the
-    robot loads the controller, because a simulation ignores it. Unknown parameters of such a controller are reported as
-    notes.
+    robot loads the controller, because urdfkit does not simulate such controllers. Unknown parameters of such a
+    controller are reported as notes.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown

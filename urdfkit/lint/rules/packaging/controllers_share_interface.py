@@ -11,7 +11,7 @@ class ControllersShareInterface(RobotRule):
     compares the joints of the controllers. Controllers that are spawned inactive are not checked.
 
     ## Why is this bad?
-    The controller manager activates only the first controller. The spawner of the other one fails with "Resource
+    The controller manager activates only the first controller. The spawner of the other controller fails with "Resource
     conflict for controller".
 
     ## Example

@@ -38,16 +38,16 @@ class CostmapContradictsRobot(RobotRule):
 
     ## What it does
     Compares ``robot_radius`` and ``footprint`` in the parameters of costmaps with the box around the wheels and the
-    links that are fixed to the root link, in its frame. Reports:
+    links that are fixed to the root link. Reports:
 
     - a radius below 60 % of half the width of the robot
-    - a radius, or a corner of a footprint, at more than 2.5 times the distance of the farthest corner of the robot
+    - a radius, or a corner of a footprint, of more than 2.5 times the distance of the farthest corner of the robot
     - a footprint that leaves more than a quarter of the length or width of the robot uncovered at one end
 
     Robots with meshes that are not found are not checked.
 
-    Also reports heights of obstacles that exclude each point of a level laser scanner of the robot, and a range of
-    slam_toolbox or gmapping far beyond that of the scanner.
+    Also reports obstacle heights that exclude every point of a level laser scanner of the robot, and a range of
+    slam_toolbox or gmapping far beyond the range of the scanner.
 
     ## Why is this bad?
     Navigation plans paths that are too narrow for the robot, or finds none.

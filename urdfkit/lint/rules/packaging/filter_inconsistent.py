@@ -19,8 +19,8 @@ class FilterInconsistent(RobotRule):
     drive controllers disable it.
 
     ## Why is this bad?
-    The estimated pose jumps between two sources or drifts without bound, or a link has two parents in the TF tree, or
-    the tree is not connected.
+    The estimated pose jumps between two sources or drifts without bound. In other cases a link has two parents in the
+    TF tree, or the tree is not connected.
 
     ## Example
     ```diff

@@ -11,7 +11,7 @@ class FrameInconsistent(RobotRule):
     in YAML with each other and with the odometry frames of plugins. Reports a frame other than ``map`` and ``odom`` if
     another node uses a different frame and the name occurs nowhere else in the files and code of these packages. Also
     reports a node whose two frames are equal, and controllers of differential drives whose base frame is not the root
-    link, so that the link has two parents.
+    link, which gives that link two parents.
 
     ## Why is this bad?
     The node waits for a transform that no node publishes, or publishes a transform that no other node uses.

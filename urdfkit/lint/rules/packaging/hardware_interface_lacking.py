@@ -25,10 +25,10 @@ class HardwareInterfaceLacking(RobotRule):
     ``<state_interface>`` elements of their joints in ``<ros2_control>``. The type and the parameters of a controller in
     YAML determine the required interfaces. Also checks the ``sensor_name`` of broadcasters for misspelt sensor names.
 
-    The joints of a controller with the same defect have one finding.
+    Joints of a controller with the same defect share one finding.
 
-    Nothing is reported if arguments or another description of the package may select other hardware, or if
-    ``<ros2_control>`` misspells the joint or interface, which other rules report.
+    Nothing is reported if arguments or another description of the package may select other hardware. Misspelt joints
+    and interfaces in ``<ros2_control>`` are reported by other rules.
 
     ## Why is this bad?
     The controller manager refuses to start the controller: "Not acceptable command interfaces".

@@ -21,9 +21,9 @@ class LaunchPathMissing(RobotRule):
     are paths that are only tested for existence. Gazebo Classic needs the path of its world, not only the name.
 
     Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. Maps,
-    recordings and files that git ignores are also accepted, because users and programs create them, unless a file with
-    a similar name exists. Missing folders and RViz configurations are reported as warnings, because the launch
-    continues without them.
+    recordings and files that git ignores are created by users and programs. They are reported only if a file with a
+    similar name exists. Missing folders and RViz configurations are reported as warnings, because the launch continues
+    without them.
 
     ## Why is this bad?
     The launch fails, or starts without the robot, the world or the parameters.

@@ -9,20 +9,20 @@ class NavigationSettingsInconsistent(RobotRule):
     ## What it does
     Checks the parameters of Nav2 and move_base in YAML for:
 
-    - costmap layers in the wrong order, and costmap topics that a server cannot read
+    - costmap layers in the wrong order, and costmap topics that the server does not publish or cannot read
     - a local costmap that does not move with the robot
     - a global frame that moves with the robot, or differs from that of the static map
     - an inflation radius below the inscribed radius of the footprint
     - footprints whose sides cross or that do not contain the origin
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
-    - a speed of the controller more than twice the limit of the velocity smoother
+    - a controller speed of more than twice the limit of the velocity smoother
     - a linear speed that exceeds the velocity limit of a wheel joint
     - plugin names of different releases in one file, and plugins with the parameters of another plugin
     - a time step of the MPPI controller that is shorter than the period of its server
 
     ## Why is this bad?
     The robot drives into obstacles that are not inflated, leaves its local costmap, or uses the default parameters of
-    the planner; a server does not start or waits for a topic.
+    the planner. In other cases a server does not start or waits for a topic.
 
     ## Example
     ```diff

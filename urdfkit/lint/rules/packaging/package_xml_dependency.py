@@ -44,16 +44,16 @@ class PackageXmlDependency(RobotRule):
     - packages that the files of the robot's package use in ``$(find …)`` and ``package://…``
     - packages that launch files start, include or import, and ``xacro`` if they call it, with the dependencies of their
       own package
-    - packages of the controllers in YAML, with the dependencies of all packages of the robot, if one of these packages
-      is about controllers
-    - packages of the plugins of Nav2, of MoveIt and of the Gazebo plugin that runs controllers, if the package starts
+    - packages of the controllers in YAML, if a package of the robot depends on other controller packages (all packages
+      of the robot count)
+    - packages of the plugins of Nav2 and MoveIt, and of the Gazebo plugin that runs controllers, if the package starts
       Gazebo or depends on other packages of this kind
 
     A build or test dependency is not sufficient for launch files. A dependency on a metapackage, such as
-    ``navigation2``, includes the packages that it depends on. A name that misspells a dependency, a package of the
-    workspace or a common package by one letter is reported as an error wherever it occurs. Every other package is
-    reported once, in package.xml after the dependency that it follows, with the places that use it. A comment that
-    suppresses the rule at one of these places suppresses that use.
+    ``navigation2``, covers the packages that the metapackage depends on. A name that misspells a dependency, a package
+    of the workspace or a common package by one letter is reported as an error at each place. Every other package is
+    reported once, at the line of package.xml after which the dependency belongs, with a list of the places that use the
+    package. A comment that suppresses the rule at one of these places suppresses that use.
 
     Test folders, optional launch files of the MoveIt Setup Assistant, and dependencies that are commented out in
     package.xml are not checked.

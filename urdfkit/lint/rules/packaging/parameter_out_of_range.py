@@ -8,8 +8,8 @@ class ParameterOutOfRange(RobotRule):
 
     ## What it does
     Compares parameters of controllers, Nav2, move_base, robot_localization, slam_toolbox, gmapping, amcl, twist_mux,
-    teleop nodes, maps and MoveIt with ranges that are many times wider than the values in the examples of their
-    packages. Values of zero and below are accepted, because they often disable a function.
+    teleop nodes, maps and MoveIt with the sensible range of each parameter, which is many times wider than the values
+    in the examples of its package. Values of zero and below are accepted, because they often disable a function.
 
     ## Why is this bad?
     The nodes accept such a value. Usually a decimal point is misplaced, or the value has another unit, such as

@@ -20,9 +20,9 @@ class ParameterValueInvalid(RobotRule):
     Checks the YAML files of the robot's package and of packages that depend on it for:
 
     - keys that occur twice in a group, minima above their maxima, and misspelt ``true`` and ``false``
-    - wrong types and former names of the parameters of well-known nodes, and lists of lists, which ROS 2 rejects
+    - for the parameters of well-known nodes, wrong types and outdated names; lists of lists, which ROS 2 rejects
     - in robot_localization, a wrong world frame and sensor configurations without 15 values
-    - in Nav2, plugins that are listed without a section, and limits that its nodes reject
+    - in Nav2, plugins that are listed without a section, and limits that the nodes reject
     - in maps, a missing image, an unknown mode, impossible numbers and a resolution that contradicts the origin
 
     In the parameters of controllers, also checks for:
@@ -32,7 +32,7 @@ class ParameterValueInvalid(RobotRule):
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
     - an update rate that is higher than that of the physics of Gazebo
     - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
-    - minimum velocities above zero, and parameters that are indented to the level of controllers
+    - minimum velocities above zero, and parameters with the indentation of a controller name
 
     ## Why is this bad?
     The controller does not start, or the value is ignored. If a key occurs twice, only the last value applies.

@@ -48,15 +48,15 @@ class SpawnArgumentMisspelt(RobotRule):
     ## What it does
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) and
     ``spawner`` (controller_manager) for misspelt options, options of another spawner, and misspellings of joints and of
-    the topic or parameter ``robot_description``. Also checks for this name in place of a file. The spawners of Gazebo
-    Classic need a source of the description. Python launch files are parsed, not executed.
+    the topic or parameter ``robot_description``. Also reports ``robot_description`` where a file is expected, and
+    spawners of Gazebo Classic without a source of the description. Python launch files are parsed, not executed.
 
     The rule also reports
 
     - a ``spawner`` that names a controller manager that neither a launch file nor a plugin of the robot starts
-    - a launch argument whose value removes the plugin with the controller manager from the description, although the
-      opposite value adds it
-    - a description in a namespace, if the launch file starts the robot and no file names a namespace
+    - a launch argument whose value removes the plugin that runs the controller manager from the description, although
+      the opposite value adds it
+    - a namespace in the topic of the description, if the launch file starts the robot and no file names that namespace
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world. ``create``

@@ -15,9 +15,9 @@ class SpawnedControllerUndefined(RobotRule):
     Checks the controllers that launch files pass to the spawner. Reports:
 
     - misspellings of a controller with a type in the YAML files of these packages
-    - in ROS 2, controllers whose parameters are in a file that gives a type only to other controllers
+    - in ROS 2, controllers whose parameters are in a file that sets the type of other controllers, but not theirs
     - in ROS 1, controllers that the same launch file loads in a namespace other than that of the spawner
-    - the only controller of a file that no launch file spawns, if no other one moves its joints
+    - the only controller of a file that no launch file spawns, if no other controller moves its joints
     - in ROS 1, spawners in a namespace other than that of ``gazebo_ros_control``
 
     Python launch files are parsed, not executed.

@@ -9,12 +9,12 @@ class TopicTypeMismatch(RobotRule):
     ## What it does
     Compares the inputs of robot_localization, the observation sources of costmaps, ``scan_topic``, ``odom_topic``,
     ``point_cloud_topic`` and ``image_topic`` with the types of topics that bridges, sensors, controllers and filters
-    publish. Compares the flags for stamped velocity commands of Nav2, twist_mux, teleop_twist_joy and drive controllers
-    on both sides of a topic.
+    publish. Also compares the flags for stamped velocity commands of the publisher and the subscriber of a topic, for
+    Nav2, twist_mux, teleop_twist_joy and drive controllers.
 
     ## Why is this bad?
-    The subscription is not connected: ROS connects only publishers and subscribers of the same type, and the node
-    reports no error.
+    ROS connects only publishers and subscribers of the same type, so the node receives no messages and reports no
+    error.
 
     ## Example
     ```diff

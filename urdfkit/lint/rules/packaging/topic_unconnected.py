@@ -11,14 +11,14 @@ class TopicUnconnected(RobotRule):
     Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,
     ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
     ``joint_state_publisher`` for topics that the node does not have. Also reports nodes such as
-    ``nav2_velocity_smoother`` that subscribe to the topic on which they publish, two equal nodes of a launch file that
-    publish on one topic, and drivers with swapped names in a remapping. The remappings of a node in the packages of the
-    workspace are compared with the names in the code of its package, if the code computes no names.
+    ``nav2_velocity_smoother`` that subscribe to the topic on which they publish, two nodes of a launch file that run
+    the same executable and publish on one topic, and drivers with swapped names in a remapping. For a node of the
+    workspace, the remappings are compared with the names in the code of its package, unless the code computes names.
 
-    The launch files are read with the files that they include. Reports nodes that publish or subscribe to
-    ``robot_description`` or ``joint_states`` in another namespace than the other nodes of the launch.
+    The rule also follows the includes of launch files. It reports nodes that publish or subscribe to
+    ``robot_description`` or ``joint_states`` in a different namespace from the other nodes of the launch.
 
-    Velocity commands of these nodes and of Nav2 are reported if no other file of the packages names their topic,
+    Velocity commands of these nodes and of Nav2 are reported if no other file of the packages names their topic
     although a ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
 
     ## Why is this bad?

@@ -7,9 +7,9 @@ class TurnTooTight(RobotRule):
     """Navigation plans turns that are tighter than the steering of the robot allows.
 
     ## What it does
-    Computes the smallest turning radius from the wheelbase and the limits of the steering joints, which a steering
-    controller in YAML names. Compares the ``minimum_turning_radius`` of planners with it, and reports
-    ``use_rotate_to_heading`` of the regulated pure pursuit controller. Deviations of up to 10 % are accepted.
+    Computes the smallest turning radius from the wheelbase and the limits of the steering joints that a steering
+    controller in YAML names. Reports planners with a smaller ``minimum_turning_radius``, and ``use_rotate_to_heading``
+    of the regulated pure pursuit controller. Deviations of up to 10 % are accepted.
 
     ## Why is this bad?
     The robot leaves the planned path in tight turns, and does not reach the goal.

@@ -24,14 +24,14 @@ _OTHER = r"(?i)cast[eo]r|swivel|steer|fork|roll|pan|yaw|rotac|suspension"
 
 
 class AxisContradictsPart(RobotRule):
-    """The axis of a steering joint or of a wheel does not suit its part.
+    """The axis of a steering joint or wheel joint has an implausible direction.
 
     ## What it does
     Checks the axes with every joint at zero. Joints with ``steer`` in their names must have an approximately vertical
     axis. Continuous joints of wheels must have an approximately horizontal axis that is not perpendicular to the line
-    between the wheel and its counterpart on the other side. Casters, forks and rollers are not checked. Also reports
-    counterparts, such as ``left_wheel_joint`` and ``right_wheel_joint``, whose axes are along different lines, and
-    front and rear wheels of one side that turn in opposite directions.
+    from the wheel to its counterpart on the other side. Casters, forks and rollers are not checked. Also reports
+    counterparts, such as ``left_wheel_joint`` and ``right_wheel_joint``, whose axes are not parallel, and front and
+    rear wheels of one side that turn in opposite directions.
 
     ## Why is this bad?
     The wheel tumbles or scrapes over the ground instead of rolling, or the robot does not steer.

@@ -16,8 +16,8 @@ class CameraFrameNotOptical(RobotRule):
 
     ## What it does
     Checks ``optical_frame_id`` and the frames of camera plugins of Gazebo Classic. Reports a link that has a child with
-    ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in a link whose x axis points to the right
-    of its parent link, as that of an optical frame does: the view of the camera is along x.
+    ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in an optical frame, recognised by an x
+    axis that points to the right of the parent link: Gazebo cameras look along x.
 
     ## Why is this bad?
     Images and depth are measured along the z axis of their frame. In the frame of the body, point clouds and markers

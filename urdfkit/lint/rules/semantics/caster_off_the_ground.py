@@ -42,14 +42,14 @@ class CasterOffTheGround(RobotRule):
     """The caster of a robot with two drive wheels is above or below the ground.
 
     ## What it does
-    Compares the lowest points of the drive wheels with those of the other links, with every joint at zero and the root
-    link level. A caster, recognised by its name or the name of its joint, is reported if it would tilt the robot by
-    more than 3.4° or if its radius is more than 1.5 times that of the wheels. Any link is reported if it extends below
-    the wheels by more than a twentieth of their radius. Without a Gazebo drive, the pairs of wheels on both sides count
-    as drive wheels.
+    Compares the lowest points of the drive wheels with the lowest points of the other links, with every joint at zero
+    and the root link level. A caster, recognised by its name or the name of its joint, is reported if it would tilt the
+    robot by more than 3.4° or if its radius is more than 1.5 times that of the wheels. Any link is reported if it
+    extends below the wheels by more than a twentieth of their radius. In robots without a Gazebo drive, each pair of a
+    left and a right wheel counts as drive wheels.
 
-    Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a
-    joint raises or lowers, links outside the tree of the robot, and a floor below the robot are not checked.
+    Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a joint raises or
+    lowers, links that are not connected to the root link, and a floor below the robot are not checked.
 
     ## Why is this bad?
     The robot tips onto its caster when the simulation starts, or its wheels lose contact with the ground: the robot

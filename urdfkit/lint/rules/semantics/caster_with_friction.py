@@ -17,7 +17,7 @@ class CasterWithFriction(RobotRule):
     a left and a right wheel. Coefficients of 0.5 and more are reported.
 
     ## Why is this bad?
-    The ball does not roll but slides: its friction brakes the robot and hinders turns, so the odometry is wrong.
+    The ball slides instead of rolling. Its friction brakes the robot and hinders turns, so the odometry is wrong.
 
     ## Example
     ```diff

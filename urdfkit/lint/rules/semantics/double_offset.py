@@ -11,8 +11,8 @@ class DoubleOffset(RobotRule):
     Movable joints are not checked, because equal segments of legs and arms are common.
 
     ## Why is this bad?
-    The offset is applied twice, so the frame is twice as far away as intended. Usually one of the offsets is a
-    copy-and-paste error.
+    The offset is applied twice, so the frame is twice as far away as intended. Usually one of the two offsets was
+    copied by mistake.
 
     ## Example
     ```diff

@@ -14,7 +14,7 @@ class DriveWheelWithoutFriction(RobotRule):
     wheel without coefficients if all other drive wheels have them. Casters are not checked.
 
     ## Why is this bad?
-    The wheel spins and the robot stays where it is.
+    The wheel spins, and the robot does not move.
 
     ## Example
     ```diff

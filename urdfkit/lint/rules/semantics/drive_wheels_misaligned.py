@@ -24,9 +24,9 @@ class DriveWheelsMisaligned(RobotRule):
     wheels of a ``diff_drive_controller`` that a Gazebo plugin of the robot runs.
 
     ## Why is this bad?
-    A drive commands the same velocity to both wheels to move straight ahead. If the axes point in opposite directions,
-    the robot turns on the spot instead. Wheels at different heights do not both touch the ground. Two wheels in the
-    same place usually result from a wrong sign, such as ``reflect="1"`` for both sides.
+    To move straight ahead, a drive commands the same velocity to both wheels. If the axes of the wheels point in
+    opposite directions, the robot turns on the spot instead. Wheels at different heights do not both touch the ground.
+    Two wheels in the same place usually result from a wrong sign, such as ``reflect="1"`` for both sides.
 
     ## Example
     ```diff

@@ -34,12 +34,15 @@ class JointContradictsName(RobotRule):
     """The motion of a joint contradicts its name, or the comment before it.
 
     ## What it does
-    Compares the type and the axis of joints with the words in their names, with all joints at position zero. A
-    ``slide``, ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint moves along a line; a sliding ``lift``,
-    ``elevator`` or ``fork`` moves up and down, and up if all its positions are positive; a ``lift`` does not rotate
-    about a vertical axis. ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``
-    and ``pitch`` joints and knees do not. Hands, arms, wheels and rotors are not checked, because they may have any
-    direction at zero.
+    Compares the type and the axis of joints with the words in their names, with all joints at position zero:
+
+    - A ``slide``, ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint does not rotate.
+    - A prismatic ``lift``, ``elevator`` or ``fork`` moves vertically, and upwards if all its positions are positive. A
+      revolute one does not have a vertical axis.
+    - ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``, ``pitch`` and ``knee``
+      joints do not.
+
+    Hands, arms, wheels and rotors are not checked, because they may have any direction at zero.
 
     A comment directly before the joint, or before its macro call, may state the direction of positive positions, such
     as ``positive is up``. A joint that moves the parts that it carries in the opposite direction is reported.

@@ -4,16 +4,17 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class JointMovesIntoRobot(RobotRule):
-    """A joint moves its load into the robot or the ground, but would not in the opposite direction.
+    """A joint moves its load into the robot or the ground, and would not do so in the opposite direction.
 
     ## What it does
     Checks ``revolute`` and ``prismatic`` joints whose range is mainly on one side of zero, with all other joints at
     zero. Reports a joint if the parts that it carries enter the rest of the robot, or reach below its lowest point, in
-    at least half of the range, but nowhere in the mirrored range. Only boxes, cylinders and spheres are compared. Two
-    hundred robots of public repositories have no such joint.
+    at least half of the range, but nowhere in the mirrored range. Only boxes, cylinders and spheres are compared. None
+    of two hundred robots of public repositories has such a joint.
 
     ## Why is this bad?
-    The sign of the axis is wrong, or those of the limits: a lid opens into its box, or a lift sinks into its column.
+    The sign of the axis is wrong, or the signs of the limits are: a lid opens into its box, or a lift sinks into its
+    column.
 
     ## Example
     ```diff

@@ -4,22 +4,23 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LinksOverlap(RobotRule):
-    """A link is inside of another link of the robot.
+    """A link is inside another link of the robot.
 
     ## What it does
-    Compares boxes, cylinders and spheres with every joint at zero: the collision shapes of links, or their visual
-    shapes if they have no others. Reports three cases:
+    Compares the boxes, cylinders and spheres of links with every joint at zero: the collision shapes, or the visual
+    shapes of links without collision shapes. Reports these cases: Reports three cases:
 
-    - A joint places a link, with all parts that it carries, completely inside of the parent link.
+    - A joint places a link, with all parts that it carries, completely inside the parent link.
     - Two links that move against each other have the same shape at the same place.
-    - The centre of a link is inside of a link that carries it over at least two joints, such as a hand in an upper arm.
-      Both links must have a single shape. Stages of telescopes and joints whose limits exclude zero are not compared.
+    - The centre of a link is inside a link that is at least two joints closer to the root, such as a hand in an upper
+      arm. Both links must have a single shape. Stages of telescopes and joints whose limits exclude zero are not
+      compared.
 
-    Two hundred robots of public repositories have no such links.
+    None of two hundred robots of public repositories has such links.
 
     ## Why is this bad?
-    The sign of an offset is wrong, or a joint has the wrong parent link. The links collide in each state of the robot,
-    so that planners find no path and the simulation is unstable.
+    The sign of an offset is wrong, or a joint has the wrong parent link. The links collide in every state of the robot,
+    so planners find no path and simulations are unstable.
 
     ## Example
     ```diff

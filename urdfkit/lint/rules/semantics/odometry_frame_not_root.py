@@ -15,11 +15,12 @@ class OdometryFrameNotRoot(RobotRule):
     """A drive publishes the pose of a link that has a parent in the robot.
 
     ## What it does
-    Compares the base frame of Gazebo drives that publish the transform of the odometry with the root link.
+    Reports Gazebo drives that publish the odometry transform of a link other than the root link.
 
     ## Why is this bad?
-    ``robot_state_publisher`` publishes another parent of the same frame. A frame has only one parent in TF, and each
-    message replaces it. The parent alternates, and the links above the frame are not connected to the odometry.
+    ``robot_state_publisher`` publishes another parent of the same frame. In TF, a frame has only one parent, and each
+    message replaces this parent. The parent alternates, and the links above the frame are not connected to the odometry
+    frame.
 
     ## Example
     ```diff

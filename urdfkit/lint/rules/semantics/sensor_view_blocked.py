@@ -7,14 +7,14 @@ class SensorViewBlocked(RobotRule):
     """The robot blocks the view of a camera or lidar.
 
     ## What it does
-    Checks for Gazebo cameras and lidars inside a box, cylinder or sphere of another link, and for those whose view ends
+    Checks for Gazebo cameras and lidars that are inside a box, cylinder or sphere of another link, or whose view ends
     at such a shape within a metre. Also checks for lidars that see the robot in at least a quarter of their view, and
     would not see it if they were rotated by 180°. Only links that are fixed to the link of the sensor are compared.
     Shapes with a diagonal of up to 0.25 m are ignored, because they are usually housings of the sensor.
 
     ## Why is this bad?
-    The image is dark, or the scan has the same distances everywhere. Usually a sign or the height of the origin is
-    wrong, or the sensor at the rear is not turned.
+    The image is dark, or the scan has the same distance everywhere. Usually a sign or the height of the origin is
+    wrong, or a sensor at the rear does not face backwards.
 
     ## Example
     ```diff

@@ -4,18 +4,17 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ToolFrameInsideBody(RobotRule):
-    """The frame of a tool is inside of the gripper, or a camera next to the tool looks back at the arm.
+    """The frame of a tool is inside the gripper, or a camera next to the tool faces the arm.
 
     ## What it does
     Checks frames without shapes that are fixed to a link with fingers and have ``tcp``, ``tool``, ``grasp``, ``tip`` or
-    ``end_effector`` in their names. Reports a frame that is inside of a box or cylinder of that link, or on the side
-    that is opposite to the fingers. Also reports an
-    optical frame of a camera that is fixed to the last link of an arm, if its z axis points away from the fingers or
-    the tool.
+    ``end_effector`` in their names. Reports a frame that is inside a box or cylinder of that link, or on the side
+    opposite to the fingers. Also reports an optical frame of a camera that is fixed to the last link of an arm, if its
+    z axis points away from the fingers or the tool.
 
     ## Why is this bad?
-    The gripper collides with objects at the pose that it plans for, and the camera sees the arm. Usually the offset is
-    that of another link, or an angle has the wrong sign.
+    The gripper collides with objects at the planned pose, and the camera sees the arm. Usually the offset was copied
+    from another link, or an angle has the wrong sign.
 
     ## Example
     ```diff

@@ -28,19 +28,19 @@ _UNEVEN_WHEELS = 0.05
 
 
 class TwinsMisplaced(RobotRule):
-    """A part and its counterpart on the other side, or at the other end, are not mirrored.
+    """A part and its counterpart on the other side, or at the other end, are not mirror images.
 
     ## What it does
     Compares the joint origins of parts of the same parent whose names differ only in a side (``left`` and ``right``,
-    ``fl`` and ``fr``) or an end (``front`` and ``rear``). Parts on two sides must have the same coordinates except for
-    one sign, and parts at two ends may differ in one coordinate. Reports:
+    ``fl`` and ``fr``) or an end (``front`` and ``rear``). The coordinates of a left and a right part may differ only in
+    one sign. The coordinates of a front and a rear part may differ only in one coordinate. Reports:
 
     - counterparts in the same place, and coordinates that differ in a sign or a decimal point
     - moving joints that differ in a coordinate by more than a quarter of their distance from the parent, and wheels
       that differ by more than a twentieth
-    - sides and ends that are exchanged
-    - joints with equal offsets on parents whose shapes are mirrored
-    - shapes with equal offsets on links whose joints are mirrored
+    - a left part on the right side, or a front part at the rear
+    - joints with equal offsets although the shapes of their parents are mirrored
+    - shapes with equal offsets although the joints of their links are mirrored
     - links of the two sides, except hands and cameras, that overlap with every joint at zero
 
     ## Why is this bad?

@@ -20,9 +20,9 @@ class TwinsTurnDifferently(RobotRule):
 
     ## What it does
     Compares the axes and limits of ``revolute`` joints whose names differ only in a side (``left`` and ``right``) and
-    that are mirrored at the plane y = 0 with every joint at zero. If their axes are mirrored, so that the same angle is
-    the mirrored motion, their limits must be equal; if one axis is reversed, the limits must be negated and exchanged.
-    Limits that are neither, and symmetric limits, are not reported.
+    that are mirrored at the plane y = 0 with every joint at zero. If the axes are mirrored, equal angles make mirrored
+    motions, so the limits must be equal. If one axis is reversed, the limits must be negated and exchanged. Symmetric
+    limits, and limits that fit neither case, are not reported.
 
     ## Why is this bad?
     One leg moves outwards while its counterpart moves inwards. Usually the axis or the limits of one side have the

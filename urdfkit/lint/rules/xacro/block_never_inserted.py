@@ -9,11 +9,11 @@ class BlockNeverInserted(SourceRule):
 
     ## What it does
     Checks for ``<xacro:macro>`` with a parameter such as ``*origin`` that no ``<xacro:insert_block>`` of its body
-    names. No file of two hundred public robots has such a macro.
+    names. None of two hundred public robots has such a macro.
 
     ## Why is this bad?
-    xacro drops the block of each call without a message. Usually an origin is lost, and the part of the macro is placed
-    at the origin of its parent link.
+    xacro drops the block of each call without a message. Usually the block is an ``<origin>``, so the part is placed at
+    the origin of its parent link.
 
     ## Example
     ```diff

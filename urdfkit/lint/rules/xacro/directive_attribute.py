@@ -14,8 +14,8 @@ class DirectiveAttribute(FaultRule):
     were correct, to avoid follow-up errors.
 
     ## Why is this bad?
-    xacro warns about an unknown attribute and ignores it. A property with ``vlaue`` then has no value, and expressions
-    that use the property fail. A comma after a parameter becomes part of its name.
+    xacro warns about an unknown attribute and ignores it. A property with ``vlaue``, for example, has no value, and
+    expressions that use the property fail. A comma after a macro parameter becomes part of the name of the parameter.
 
     ## Example
     ```diff

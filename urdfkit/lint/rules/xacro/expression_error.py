@@ -10,8 +10,8 @@ class ExpressionError(FaultRule):
 
     ## What it does
     Checks for ``${…}`` expressions that are not valid Python, or that fail, such as a division by zero or a function
-    call with an invalid argument. If the cause is a property or argument that is nearly a number (``O.4``, ``0,4``),
-    the rule reports its definition instead.
+    call with an invalid argument. If the cause is a property or argument with a mistyped number (``O.4``, ``0,4``), the
+    rule reports the definition of the property or argument instead.
 
     ## Why is this bad?
     xacro aborts with an error, or copies the expression to the robot unchanged.

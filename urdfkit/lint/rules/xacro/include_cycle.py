@@ -4,7 +4,7 @@ from urdfkit.lint.rule import FaultRule
 
 
 class IncludeCycle(FaultRule):
-    """A file includes itself, or a macro calls itself, endlessly.
+    """A file includes itself, or a macro calls itself, without end.
 
     ## What it does
     Checks for cycles of includes and macro calls.

@@ -22,7 +22,8 @@ class RoundedPi(SourceRule):
 
     ## What it does
     Checks ``rpy`` for rounded multiples of π, such as 3.14, 1.57 and 0.785, and checks for properties that define π.
-    Plain URDF with meshes is usually exported; there, angles with an error of up to 0.01 mrad are accepted.
+    Plain URDF files with meshes are usually exported from CAD programs, so angles with an error of up to 0.01 mrad are
+    accepted in them.
 
     ## Why is this bad?
     1.57 rad is 0.8 mrad less than a right angle, an error of nearly one millimetre at a distance of one metre. xacro

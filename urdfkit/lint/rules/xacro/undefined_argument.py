@@ -9,9 +9,9 @@ class UndefinedArgument(FaultRule):
     """``$(arg …)`` uses an argument without a value.
 
     ## What it does
-    Checks for arguments that have neither a default in ``<xacro:arg>`` nor a value passed as ``name:=value``. This is a
-    note if ``<xacro:arg>`` declares the argument without default, if a launch file of these packages passes it, or if
-    an included file that may declare it is missing.
+    Checks for arguments that have neither a default in ``<xacro:arg>`` nor a value passed as ``name:=value``. The
+    finding is a note if ``<xacro:arg>`` declares the argument without a default, if a launch file of these packages
+    passes the argument, or if a missing included file may declare it.
 
     ## Why is this bad?
     xacro aborts unless every caller passes the argument.
