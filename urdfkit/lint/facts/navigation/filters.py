@@ -15,6 +15,7 @@ from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
+from urdfkit.lint.facts.gazebo.base_motion import moves_sideways
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.node_sections import groups_of
@@ -122,6 +123,7 @@ def filter_defects(model: Model) -> Defects:
         local = {topic.text.strip("/") for one in every if one.is_local for _, topic, _, _ in one.inputs()}
         yield from _of_inputs(each, wheels | local)
     yield from _without_transform(model, every)
+    yield from _without_sideways_motion(model, every)
 
 
 def _of_pair(pair: list[Filter], has_root: bool) -> Defects:
@@ -251,6 +253,22 @@ def _second_parents(model: Model, every: list[Filter]) -> Defects:
             continue
         message = f"{who} makes `{node.text}` a child of the odometry frame, but its parent is `{joint.parent}`"
         yield source, node, f"{message}; write `{model.robot.roots()[0].name}`"
+
+
+def _without_sideways_motion(model: Model, every: list[Filter]) -> Defects:
+    """Yield the odometry of a local filter that fuses x, although the base can move sideways, and no input has y."""
+    local = [each for each in every if each.is_local]
+    if not local or not moves_sideways(model):
+        return
+    for each in local:
+        inputs = list(each.inputs())
+        if any(values[at] not in _FALSE for _, _, _, values in inputs for at in (1, _AXES.index("vy"))):
+            continue
+        for name, _, config, values in inputs:
+            if values[_AXES.index("vx")] in _TRUE:
+                message = f"`{name}_config` does not fuse vy, but the base can move sideways"
+                yield each.source, config.items[_AXES.index("vy")], message
+                break
 
 
 def _is_elsewhere(model: Model, link: str) -> bool:

@@ -17,6 +17,7 @@ class NavigationSettingsInconsistent(RobotRule):
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
     - a controller speed of more than twice the limit of the velocity smoother
     - a linear speed that exceeds the velocity limit of a wheel joint
+    - motion models and speeds that assume sideways motion, or exclude it, against the drive of the robot
     - plugin names of different releases in one file, and plugins with the parameters of another plugin
     - a time step of the MPPI controller that is shorter than the period of its server
 
@@ -44,11 +45,12 @@ class NavigationSettingsInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.gazebo.base_motion import contradictions
         from urdfkit.lint.facts.navigation.commanded_speeds import speeds_beyond_wheels, unreachable_speeds
         from urdfkit.lint.facts.navigation.costmaps import costmap_defects
         from urdfkit.lint.facts.navigation.navigation_plugins import plugin_defects
 
-        found = [*costmap_defects(model), *plugin_defects(model), *unreachable_speeds(model)]
+        found = [*costmap_defects(model), *plugin_defects(model), *unreachable_speeds(model), *contradictions(model)]
         reported = {id(node) for _, node, _ in found}
         found += [each for each in speeds_beyond_wheels(model) if id(each[1]) not in reported]
         for source, node, message in found:

@@ -1,0 +1,92 @@
+"""Parameters of navigation and filters that contradict whether the base can move sideways: each has one finding."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfkit.lint import lint
+
+MANIFEST = """<package format="3"><name>barge</name><version>1.0.0</version><description>A barge.</description>
+  <maintainer email="test@example.org">tester</maintainer><license>MIT</license><exec_depend>xacro</exec_depend>
+  <exec_depend>nav2_amcl</exec_depend><exec_depend>nav2_controller</exec_depend><exec_depend>CONTROLLER</exec_depend>
+  <exec_depend>nav2_velocity_smoother</exec_depend><exec_depend>robot_localization</exec_depend>
+  <export><build_type>ament_cmake</build_type></export></package>"""
+ROBOT = """<robot name="barge"><link name="base_link"/></robot>"""
+MECANUM = """controller_manager:
+  ros__parameters:
+    drive: {type: mecanum_drive_controller/MecanumDriveController}
+drive:
+  ros__parameters: {enable_odom_tf: false}
+"""
+DIFFERENTIAL = MECANUM.replace("mecanum_drive", "diff_drive").replace("Mecanum", "Diff")
+FILTER = """ekf_filter_node:
+  ros__parameters:
+    odom_frame: odom
+    world_frame: odom
+    map_frame: map
+    base_link_frame: base_link
+    odom0: drive/odom
+    odom0_config: [false, false, false,
+                   false, false, false,
+                   true, true, false,
+                   false, false, true,
+                   false, false, false]
+"""
+NAVIGATION = """amcl:
+  ros__parameters:
+    robot_model_type: nav2_amcl::OmniMotionModel
+controller_server:
+  ros__parameters:
+    FollowPath:
+      plugin: nav2_mppi_controller::MPPIController
+      motion_model: Omni
+      vy_max: 0.4
+velocity_smoother:
+  ros__parameters:
+    smoothing_frequency: 20.0
+    max_velocity: [0.5, 0.4, 1.0]
+    min_velocity: [-0.5, -0.4, -1.0]
+"""
+SIDEWAYS = {"control.yaml": MECANUM, "ekf.yaml": FILTER, "nav2.yaml": NAVIGATION}
+FORWARDS = SIDEWAYS | {
+    "control.yaml": DIFFERENTIAL,
+    "nav2.yaml": NAVIGATION.replace("OmniM", "DifferentialM").replace("model: Omni", "model: DiffDrive"),
+}
+UNUSED = SIDEWAYS | {
+    "nav2.yaml": FORWARDS["nav2.yaml"].replace("[0.5, 0.4", "[0.5, 0.0").replace("[-0.5, -0.4", "[-0.5, 0.0")
+}
+MISTAKES = [
+    (SIDEWAYS, "ekf.yaml", "true, true,", "true, false,", "K983", 10, "`odom0_config` does not fuse vy"),
+    (SIDEWAYS, "nav2.yaml", "OmniM", "DifferentialM", "K982", 3, "but the base can move sideways"),
+    (SIDEWAYS, "nav2.yaml", "model: Omni", "model: DiffDrive", "K982", 8, "`motion_model` is DiffDrive"),
+    (SIDEWAYS, "nav2.yaml", "vy_max: 0.4", "vy_max: 0.0", "K982", 9, "`vy_max` is 0.0, but the base can"),
+    (SIDEWAYS, "nav2.yaml", "[-0.5, -0.4", "[-0.5, 0.0", "K982", 14, "y of `min_velocity` is 0.0, but the base can"),
+    (FORWARDS, "nav2.yaml", "DifferentialM", "OmniM", "K982", 3, "but the base cannot move sideways"),
+    (FORWARDS, "nav2.yaml", "model: DiffDrive", "model: Omni", "K982", 8, "but the base cannot move sideways"),
+]
+"""Files, file, text, its replacement, code, line and a part of the message."""
+
+
+def findings(folder, files, name="", old="", new=""):
+    kind = "mecanum_drive_controller" if files["control.yaml"] is MECANUM else "diff_drive_controller"
+    for file, text in ({"barge.urdf": ROBOT, "package.xml": MANIFEST.replace("CONTROLLER", kind)} | files).items():
+        assert file != name or old in text, old
+        (folder / file).write_text(text.replace(old, new, 1) if file == name else text)
+    return [one for one in lint(folder) if one.code in ("K982", "K983")]
+
+
+@pytest.mark.parametrize("files", [SIDEWAYS, FORWARDS, UNUSED], ids=["sideways", "forwards", "unused"])
+def test_consistent_settings_are_silent(tmp_path, files):
+    assert findings(tmp_path, files) == []
+
+
+@pytest.mark.parametrize(("files", "name", "old", "new", "code", "line", "message"), MISTAKES)
+def test_each_contradiction_has_one_finding(tmp_path, files, name, old, new, code, line, message):
+    [found] = findings(tmp_path, files, name, old, new)
+    assert (found.code, found.line) == (code, line)
+    assert message in found.message
+
+
+def test_two_drives_of_different_kinds_decide_nothing(tmp_path):
+    second = {"other.yaml": DIFFERENTIAL.replace("drive:", "wheels:")}
+    assert findings(tmp_path, SIDEWAYS | second, "nav2.yaml", "OmniM", "DifferentialM") == []
