@@ -3,7 +3,9 @@
 import re
 from collections.abc import Sequence
 
+from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.source import Expansion, Span
+from urdfkit.lint.facts.values.value_sources import ValueSource, ValueSources
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 
@@ -17,12 +19,22 @@ _ATTRIBUTE = rf"[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"']"
 _TAG = rf"<[\w:.-]+\s+{_ATTRIBUTE}\s*/?>"
 """Matches a tag with one attribute."""
 
+_NUMBER = r"(?<![\w.])-?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])"
 _TEXT = rf"<[\w:.-]+(?:\s[^<>]*)?>(?:[\w~/]+:=)?{_HANDED_ON}</"
 """Matches an element whose text is a parameter, perhaps as the new name of a remapping."""
 
 
+_OF_VALUES = re.compile("C719|G61[149]|I50[14]|I514|I518|J40[5-9]|J41[019]|J42[01235]|J429|S91[46]|Z823")
+"""Matches codes of findings on a value that is wrong by itself: its unit, sign or size."""
+
+_FACTOR = 4.0
+"""A coordinate is the cause of a distance if it is larger than all other coordinates by this factor."""
+
+
 def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
     """Return the findings; those on ``${parameter}`` in a macro are moved to the value in the macro call.
+
+    Values behind dictionaries and formulas are found where they are written too, such as in a YAML file.
 
     A finding on more than the attribute stays where it is if its message does not name the value. All findings stay if
     several values cause them, perhaps by one slip in the macro, or if the file of the macro suppresses findings by
@@ -33,24 +45,71 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
     groups: dict[tuple[str, Span], list[Span | None]] = {}
     calls: dict[tuple[str, Span], set[Expansion]] = {}
     for finding in findings:
+        calls.setdefault((finding.code, finding.span), set())
         if (finding.file, finding.line) not in formulas:  # which the macro itself has wrong
-            calls.setdefault((finding.code, finding.span), set()).update(chain[0] for chain in finding.chains)
+            calls[finding.code, finding.span].update(chain[0] for chain in finding.chains)
+    sources = ValueSources(model)
     written = [
-        (_written(finding, model) or _only_call(finding, calls.get((finding.code, finding.span), set()), model))
-        if finding.chains
-        else None
+        _literal(finding, model, sources)
+        or (_written(finding, model) if finding.chains else None)
+        or (_only_call(finding, calls[finding.code, finding.span], model) if finding.chains else None)
         for finding in findings
     ]
     for finding, span in zip(findings, written, strict=True):
         groups.setdefault((finding.code, finding.span), []).append(span)
-    return [
-        finding if span is None or len(set(groups[finding.code, finding.span])) > 1 else _moved(finding, span)
-        for finding, span in zip(findings, written, strict=True)
-    ]
+    found: list[Finding] = []
+    at_literals: dict[Span, int] = {}
+    for finding, span in zip(findings, written, strict=True):
+        if span is None or len(set(groups[finding.code, finding.span])) > 1:
+            found.append(finding)
+        elif not _OF_VALUES.fullmatch(finding.code) or span not in at_literals:
+            at_literals[span] = len(found)
+            found.append(_moved(finding, span))
+        else:  # one value causes several findings
+            first = found[at_literals[span]]
+            chains = tuple(dict.fromkeys((*first.chains, *finding.chains)))
+            found[at_literals[span]] = Finding(**{**first.__dict__, "chains": chains})
+    return found
+
+
+def _literal(finding: Finding, model: Model, sources: ValueSources) -> Span | None:
+    """Return the place of the literal that makes a value wrong; None if several literals may be the cause."""
+    text = _text(finding, model) if _OF_VALUES.fullmatch(finding.code) else ""
+    if text and "${" not in text:
+        tag = model.tag(finding.span.start)
+        text = model.document(finding.file).source.text[tag.start : tag.close_end] if tag is not None else ""
+    if "${" not in text or "urdfkit:" in model.document(finding.file).source.text:
+        return None
+    places: set[Span] = set()
+    for chain in finding.chains or ((),):
+        found = sources.of_text(text, finding.span, chain)
+        cause = _cause(found, text, finding) if found is not None else None
+        if cause is None:
+            return None
+        places.add(cause)
+    return places.pop() if len(places) == 1 else None
+
+
+def _cause(found: set[ValueSource], text: str, finding: Finding) -> Span | None:
+    """Return the place of the one literal that is not a sign, that the message names, or that exceeds all others."""
+    signs = ("0", "1", "-1", "true", "false", "True", "False", "")
+    values = {each for each in found if each.text not in signs} or found
+    outside = [float(each) for each in re.findall(_NUMBER, re.sub(r"\$\{[^{}]*\}", " ", text))]
+    if len(values) == 1 and not any(outside):
+        return next(iter(values)).span
+    named = {each.span for each in values if _is_named(each.text, finding.message)}
+    if len(named) == 1:
+        return named.pop()
+    sizes = sorted((abs(size), each.span) for each in values if (size := number(each.text)) is not None)
+    if len(sizes) == len(values) > 0:
+        others = max([*(size for size, _ in sizes[:-1]), *map(abs, outside)], default=0.0)
+        return sizes[-1][1] if sizes[-1][0] > _FACTOR * others else None
+    return None
 
 
 def _moved(finding: Finding, span: Span) -> Finding:
-    used = f"macro `{finding.chains[0][0].macro}` uses it at {finding.file}:{finding.line}:{finding.column}"
+    name = f"macro `{finding.chains[0][0].macro}` uses it" if finding.chains else "it is used"
+    used = f"{name} at {finding.file}:{finding.line}:{finding.column}"
     help = f"{finding.help}; {used}" if finding.help else used
     return type(finding)(**{**finding.__dict__, "span": span, "help": help})
 
@@ -156,8 +215,6 @@ def _is_used_once(name: str, model: Model) -> bool:
 
 def _is_named(value: str, message: str) -> bool:
     """Return whether a message contains a name, or a number as text or rounded."""
-    from urdfkit.description.xml.numbers import number
-
     value_read = number(value)
     forms = {value} if value_read is None else {value, f"{value_read:g}"}
     return any(re.search(rf"(?<![\w.-]){re.escape(form)}(?![\w-]|\.\d)", message) for form in forms if form)

@@ -207,7 +207,7 @@ class Checker:
         findings += self.runner.fault_findings(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             findings += self.runner.findings_of_robot(model, entry)
-        if model.target != "urdfkit" and any(finding.chains for finding in findings):
+        if model.target != "urdfkit" and findings and (model.expanded.properties or model.expanded.macros):
             from urdfkit.lint.engine.call_values import at_calls
 
             findings = at_calls(findings, model)
@@ -224,7 +224,8 @@ class Checker:
         if model.target != "urdfkit":
             findings = at_wrong_side(findings)
         here = str(Path.cwd())
-        read = (*model.expanded.sources, *(model.related_files if model.expanded.root is not None else ()))
+        related = model.related_files if model.expanded.root is not None else ()
+        read = (*model.expanded.sources, *related, *(each.file for each in findings))  # such as YAML files of xacro
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
         findings = _only(entry, findings, files)
         return EntryResult(tuple(findings), files, note, used, "; ".join(self.runner.failures), unused), model

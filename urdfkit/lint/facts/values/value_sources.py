@@ -1,0 +1,294 @@
+"""Sources of a value: the numbers and names behind an expression, where a person wrote them.
+
+Follows properties, arguments and defaults of macros, dictionaries, lists and YAML files.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+from urdfkit.description.control.parameter_yaml import parse_settings
+from urdfkit.description.xml.reader import read_source, shown_path
+from urdfkit.description.xml.source import Source, Span
+from urdfkit.errors import DescriptionError, ResourceError
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from urdfkit.description.control.settings import Settings
+    from urdfkit.description.xml.source import Expansion
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Tag
+
+    Calls = tuple[Expansion, ...]
+    Keys = tuple[str | int, ...]
+
+_EXPRESSION = re.compile(r"\$\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
+_ARGUMENT = re.compile(r"\$\(arg\s+([^\s)]+)\s*\)")
+_DEFAULT = r"(?<!\S){name}:?=(?:\^\|?)?('[^']*'|\"[^\"]*\"|\$\{{[^{{}}]*\}}|\S*)"
+_YAML = (".yaml", ".yml", ".json")
+_MAX_STEPS = 24
+
+
+@record(order=True)
+class ValueSource:
+    """A literal behind an expression.
+
+    Attributes:
+        span: the attribute, default or YAML value.
+        text: the literal.
+    """
+
+    span: Span
+    text: str
+
+
+class UnresolvedError(Exception):
+    """The source of a value cannot be found."""
+
+
+class ValueSources:
+    """Finds the sources of values of one model.
+
+    Args:
+        model: the linted model.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._yaml: dict[Path, Settings | None] = {}
+        self._properties: dict[tuple[str, str], list[Tag]] = {}
+
+    def of_text(self, text: str, span: Span, calls: Sequence[Expansion]) -> set[ValueSource] | None:
+        """Return the sources of the expressions in a text; None if one of them is not found.
+
+        Numbers that an expression adds count, factors do not.
+
+        Args:
+            text: source text with expressions.
+            span: place of the text.
+            calls: the macro calls around the text, innermost first.
+        """
+        try:
+            return set(self._in_text(text, span, tuple(calls), 0))
+        except (UnresolvedError, SyntaxError, ValueError, RecursionError):
+            return None
+
+    def _in_text(self, text: str, span: Span, calls: Calls, steps: int) -> Iterator[ValueSource]:
+        if steps > _MAX_STEPS:
+            raise UnresolvedError
+        for expression in _EXPRESSION.findall(text):
+            yield from self._in_expression(ast.parse(expression.strip(), mode="eval").body, span, calls, steps)
+        for name in _ARGUMENT.findall(text):
+            yield self._argument(name)
+
+    def _in_expression(self, node: ast.expr, span: Span, calls: Calls, steps: int) -> Iterator[ValueSource]:
+        """Yield the sources of an expression."""
+        path = _path(node)
+        if path is not None:
+            yield from self._of_name(*path, calls, steps + 1)
+        elif isinstance(node, ast.Call):
+            for argument in node.args:
+                yield from self._in_expression(argument, span, calls, steps)
+        else:
+            is_sum = isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub))
+            for child in ast.iter_child_nodes(node):
+                if is_sum and isinstance(child, ast.Constant):
+                    yield ValueSource(span, str(child.value))
+                elif isinstance(child, ast.expr):
+                    yield from self._in_expression(child, span, calls, steps)
+
+    def _of_name(self, name: str, keys: Keys, calls: Calls, steps: int) -> Iterator[ValueSource]:
+        """Yield the sources of a name with keys: ``dims['arm']['length']``."""
+        if name in ("pi", "tau", "e", "True", "False", "math", "xacro") and self._definition(name, calls) is None:
+            return
+        found = self._definition(name, calls)
+        if found is None and keys and isinstance(keys[0], str):  # a namespace of an include
+            found, keys = self._definition(keys[0], calls), keys[1:]
+        if found is None:
+            raise UnresolvedError
+        text, span, outer = found
+        alone = _EXPRESSION.fullmatch(text.strip())
+        if alone is not None and (keys or _path_of(alone[1]) is not None):
+            yield from self._of_keys(ast.parse(alone[1].strip(), mode="eval").body, keys, span, outer, steps)
+        elif keys:
+            yield from self._of_keys(ast.parse(text.strip(), mode="eval").body, keys, span, outer, steps)
+        elif "${" in text or "$(" in text:
+            yield from self._in_text(text, span, outer, steps + 1)
+        else:
+            yield ValueSource(span, text.strip())
+
+    def _of_keys(self, node: ast.expr, keys: Keys, span: Span, calls: Calls, steps: int) -> Iterator[ValueSource]:
+        """Yield the sources of an item of an expression."""
+        if steps > _MAX_STEPS:
+            raise UnresolvedError
+        path = _path(node)
+        if path is not None:
+            yield from self._of_name(path[0], (*path[1], *keys), calls, steps + 1)
+            return
+        while isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
+            key = node.slice.value
+            keys, node = (key if isinstance(key, int) else str(key), *keys), node.value
+        if isinstance(node, ast.Call) and _called(node) == "load_yaml" and node.args:
+            yield self._in_yaml(node.args[0], keys)
+            return
+        item = _item(node, keys[0]) if keys else node
+        if item is None:
+            raise UnresolvedError
+        if keys[1:] or _path(item) is not None:
+            yield from self._of_keys(item, keys[1:], span, calls, steps + 1)
+        elif isinstance(item, ast.Constant):
+            yield ValueSource(span, str(item.value))
+        else:
+            yield from self._in_expression(item, span, calls, steps + 1)
+
+    def _definition(self, name: str, calls: Calls) -> tuple[str, Span, Calls] | None:
+        """Return the text of a parameter or property, its place and the macro calls around it."""
+        model = self._model
+        for depth, call in enumerate(calls):
+            title = call.macro.rpartition(".")[2]
+            macro = model.expanded.macros.get(title)
+            body = model.tag(macro.position) if macro is not None else None
+            if macro is None or body is None:
+                continue
+            if (name, title) not in self._properties:
+                self._properties[name, title] = [each for each in body.walk() if _defines(each, name)]
+            local = self._properties[name, title]
+            if local:
+                return _one(local, model.document(macro.position.file).source, calls[depth:])
+            if name in macro.parameters:
+                argument = tag.attributes.get(name) if (tag := model.tag(call.position)) is not None else None
+                if argument is not None:
+                    return argument.value, model.span(call.position, name), calls[depth + 1 :]
+                default = self._default(name, body, model.document(macro.position.file).source)
+                is_forwarded = default is None or default[2]
+                outer = self._definition(name, calls[depth + 1 :]) if is_forwarded else None
+                return outer or (None if default is None else (*default[:2], calls[depth + 1 :]))
+        position = model.expanded.properties.get(name)
+        tag = model.tag(position) if position is not None else None
+        if position is None or tag is None:
+            return None
+        inside = next((above for above in tag.ancestors() if above.name == "xacro:macro"), None)
+        return _one([tag], model.document(position.file).source, self._calls_of(inside, calls))
+
+    def _calls_of(self, macro: Tag | None, calls: Calls) -> Calls:
+        """Return the only call of a macro that defines a property for its callers."""
+        if macro is None or "name" not in macro.attributes:
+            return ()
+        name = macro.attributes["name"].value
+        found = {each.origin.expansions for each in self._model.elements if each.origin.expansions}
+        chains = {
+            chain[first:]
+            for chain in found
+            for first, call in enumerate(chain)
+            if call.macro.rpartition(".")[2] == name
+        }
+        if len(chains) != 1:
+            raise UnresolvedError
+        return next(iter(chains))
+
+    def _default(self, name: str, body: Tag, source: Source) -> tuple[str, Span, bool] | None:
+        """Return the default of a parameter, its place, and whether a property of the caller replaces it."""
+        written = body.attributes.get("params")
+        found = re.search(_DEFAULT.format(name=re.escape(name)), written.value) if written is not None else None
+        if written is None or found is None:
+            return None
+        start = written.value_start + found.start()
+        is_forwarded = "^" in found[0]
+        text = found[1]
+        if text[:1] in "'\"" and text:
+            text = text[1:-1]
+        return text, source.span(start, written.value_start + found.end()), is_forwarded
+
+    def _argument(self, name: str) -> ValueSource:
+        """Return the default of a xacro argument."""
+        for file in self._model.expanded.sources:
+            document = self._model.document(file)
+            for tag in document.walk():
+                if tag.name == "xacro:arg" and "default" in tag.attributes and tag.attributes["name"].value == name:
+                    return ValueSource(document.span_of(tag, "default"), tag.attributes["default"].value)
+        raise UnresolvedError
+
+    def _in_yaml(self, file: ast.expr, keys: Keys) -> ValueSource:
+        """Return the value of some keys in the YAML file that an expression names."""
+        named = [str(node.value) for node in ast.walk(file) if isinstance(node, ast.Constant)]
+        paths = [path for path in self._model.expanded.files if path.suffix in _YAML]
+        if len(paths) > 1:
+            ends = [part.rpartition(")")[2].strip("/") for part in named]
+            paths = [path for path in paths if all(end in str(path) for end in ends)]
+        found = [setting for path in paths if (setting := self._setting(path, keys)) is not None]
+        if len(found) != 1 or found[0].value is None:
+            raise UnresolvedError
+        at, value = found[0].position, found[0].value
+        return ValueSource(Span(at.file, at.line, at.column, at.line, at.column + len(value)), value)
+
+    def _setting(self, path: Path, keys: Keys) -> Settings | None:
+        if path not in self._yaml:
+            try:
+                self._yaml[path] = parse_settings(self._source(path), separator="\0")
+            except (DescriptionError, ResourceError):
+                self._yaml[path] = None
+        found = self._yaml[path]
+        for key in keys:
+            if found is not None and found.items is not None:
+                found = (
+                    found.items[key] if isinstance(key, int) and -len(found.items) <= key < len(found.items) else None
+                )
+            elif found is not None:
+                found = found.children.get(str(key))
+        return found
+
+    def _source(self, path: Path) -> Source:
+        return read_source(path, shown_as=shown_path(path), texts=self._model.texts)
+
+
+def _one(tags: list[Tag], source: Source, calls: Calls) -> tuple[str, Span, Calls]:
+    """Return the value of the only definition of a property."""
+    values = {tag.attributes["value"].value for tag in tags if "value" in tag.attributes}
+    if len(values) != 1:
+        raise UnresolvedError
+    written = tags[0].attributes["value"]
+    return written.value, source.span(written.start, written.end), calls
+
+
+def _defines(tag: Tag, name: str) -> bool:
+    return tag.name == "xacro:property" and (of := tag.attributes.get("name")) is not None and of.value == name
+
+
+def _path_of(expression: str) -> tuple[str, Keys] | None:
+    return _path(ast.parse(expression.strip(), mode="eval").body)
+
+
+def _path(node: ast.expr) -> tuple[str, Keys] | None:
+    """Return the name and the keys of ``name['key'][0].key``; None for other expressions."""
+    keys: list[str | int] = []
+    while not isinstance(node, ast.Name):
+        if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
+            key = node.slice.value
+            keys.append(key if isinstance(key, int) else str(key))
+        elif isinstance(node, ast.Attribute):
+            keys.append(node.attr)
+        else:
+            return None
+        node = node.value
+    return node.id, tuple(reversed(keys))
+
+
+def _called(node: ast.Call) -> str:
+    return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+
+
+def _item(node: ast.expr, key: str | int) -> ast.expr | None:
+    """Return an item of a list, dictionary or call of ``dict``."""
+    if isinstance(node, (ast.List, ast.Tuple)) and isinstance(key, int) and -len(node.elts) <= key < len(node.elts):
+        return node.elts[key]
+    if isinstance(node, ast.Dict):
+        pairs = zip(node.keys, node.values, strict=True)
+        return next((value for at, value in pairs if isinstance(at, ast.Constant) and at.value == key), None)
+    if isinstance(node, ast.Call) and _called(node) == "dict":
+        return next((each.value for each in node.keywords if each.arg == key), None)
+    return None
