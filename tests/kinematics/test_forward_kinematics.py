@@ -11,7 +11,7 @@ from urdfkit.description import load
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics import Kinematics, TransformTree, model
-from urdfkit.kinematics.forward_kinematics import ForwardKinematics
+from urdfkit.kinematics.pinocchio_model import ForwardKinematics
 
 
 def star(path: Path, joints: int) -> Path:

@@ -16,7 +16,7 @@ from tests.bench import fuzz_lint as bench
 from tests.bench import growth
 from urdfkit import errors
 from urdfkit.cli import main
-from urdfkit.description.urdf import likely_children
+from urdfkit.description.urdf import queries
 from urdfkit.description.xml.source import Position, Span
 from urdfkit.lint import fix_builders
 from urdfkit.lint.facts.suppressions import Suppression, suppressed
@@ -222,7 +222,7 @@ def test_names_are_compared_only_up_to_the_limit():
 def test_roots_are_not_compared_with_each_misspelt_child(monkeypatch, tmp_path):
     path = growth.write(tmp_path / "r_description", growth.misspelt_children(30))
     calls = []
-    for module in (errors, fix_builders, likely_children):
+    for module in (errors, fix_builders, queries):
         monkeypatch.setattr(module, "nearest", lambda *words, **options: calls.append(1))  # As beyond the limit.
     assert main(["lint", str(path), "--no-cache", "--select", "T203"]) == 1
     assert len(calls) <= 3 * 30

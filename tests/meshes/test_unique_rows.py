@@ -1,6 +1,6 @@
 import numpy as np
 
-from urdfkit.meshes.unique_rows import unique_rows
+from urdfkit.meshes.triangle_mesh import unique_rows
 
 
 def test_rows_are_told_apart_even_where_their_numbers_agree() -> None:

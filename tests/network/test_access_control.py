@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfkit.network.access_control import AccessControl, host_name, is_loopback
-from urdfkit.view.server.response_headers import headers
+from urdfkit.view.server.authenticated_handler import headers
 
 GATE = AccessControl(7007)
 OPEN = AccessControl(7007, names=("localhost", "127.0.0.1", "::1", "bench"), open_to_network=True)

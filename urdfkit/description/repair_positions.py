@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.description.xml.written_attributes import WrittenAttributes
+from urdfkit.description.xml.start_tag import WrittenAttributes
 
 _ATTRIBUTES = {
     **dict.fromkeys(("C701", "C703", "I511", "T203", "T204", "T206", "T207"), "name"),

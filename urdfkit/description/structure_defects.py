@@ -4,8 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from urdfkit.description.unusable_values import LEFT_OUT, Defect, unusable_values
-from urdfkit.description.urdf.likely_children import likely_children
-from urdfkit.description.urdf.queries import cycles, is_loop, repeated
+from urdfkit.description.urdf.queries import cycles, is_loop, likely_children, repeated
 from urdfkit.description.urdf.robot import Joint, Link, Pose, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean

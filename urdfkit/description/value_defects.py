@@ -12,7 +12,7 @@ from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.description.urdf.version import FIRST_VERSIONS, RATES, VERSIONS, shown, version_of, written_version
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.written_attributes import WrittenAttributes
+from urdfkit.description.xml.start_tag import WrittenAttributes
 from urdfkit.errors import ModelError
 from urdfkit.record import record
 

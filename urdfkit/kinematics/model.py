@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 
 from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError
-from urdfkit.kinematics.forward_kinematics import ForwardKinematics
 from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
 from urdfkit.kinematics.joint_variables import finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
-from urdfkit.kinematics.pinocchio_model import build_model, pin
+from urdfkit.kinematics.pinocchio_model import ForwardKinematics, build_model, pin
 from urdfkit.kinematics.variable_names import require_independent, unknown_frame, unknown_variable
 from urdfkit.linear_algebra import Array, matmul
 

@@ -17,7 +17,7 @@ from urdfkit.description.urdf.robot import Joint, Link, Pose, Robot
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.joint_limits import position_limits
 from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 
 pin: Any = require_pinocchio()
 
@@ -185,3 +185,30 @@ def _bounds(joint: Joint, kind: Any) -> tuple[Any, ...]:
         friction * v,
         damping * v,
     )
+
+
+class ForwardKinematics:
+    """Placements of the frames of a model with many joints, joint by joint, in memory linear in their number.
+
+    ``pin.Data`` has tensors of nv³ entries: it takes 2 GB for 400 degrees of freedom, and 55 GB for 1,200. For small
+    robots it is 20 times faster than this class.
+
+    Args:
+        model: ``pin.Model``.
+    """
+
+    def __init__(self, model: Any) -> None:
+        above = [int(parent) for parent in model.parents]
+        self._joints = [
+            (joint, joint.createData(), parent, placement)
+            for joint, parent, placement in zip(model.joints, above, model.jointPlacements, strict=True)
+        ][1:]
+        self._frames = [(int(frame.parentJoint), frame.placement) for frame in model.frames]
+
+    def placements(self, q: Array) -> list[Any]:
+        """Return the ``pin.SE3`` of every frame in the world; shape of q (nq,)."""
+        joints = [pin.SE3.Identity()]
+        for joint, data, parent, placement in self._joints:
+            joint.calc(data, q)
+            joints.append(joints[parent] * placement * data.M)
+        return [joints[joint] * placement for joint, placement in self._frames]

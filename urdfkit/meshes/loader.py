@@ -34,8 +34,7 @@ from urdfkit.meshes.mesh_appearance import colors_in, gloss_in, normals_in, plac
 from urdfkit.meshes.simplification import CHUNK, MOST_TRIANGLES, clustered, simplified
 from urdfkit.meshes.stl import corners_of
 from urdfkit.meshes.textures import Beside, Texture, is_as_read
-from urdfkit.meshes.triangle_mesh import TriMesh
-from urdfkit.meshes.unique_rows import unique_rows
+from urdfkit.meshes.triangle_mesh import TriMesh, unique_rows
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 """The supported file formats."""

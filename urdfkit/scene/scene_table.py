@@ -17,7 +17,7 @@ from urdfkit.description.urdf.repair_record import Repair, Severity
 from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
-from urdfkit.description.xml.written_attributes import WrittenAttributes
+from urdfkit.description.xml.start_tag import WrittenAttributes
 from urdfkit.errors import KinematicsError, ResourceError
 from urdfkit.meshes.loader import MeshLoader
 from urdfkit.meshes.specular import MATT, Gloss

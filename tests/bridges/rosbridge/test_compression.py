@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from urdfkit.bridges.published_message import PublishedMessage
-from urdfkit.bridges.rosbridge import cbor, png
-from urdfkit.bridges.rosbridge.subscription import encoder, fragments
+from urdfkit.bridges.rosbridge import cbor
+from urdfkit.bridges.rosbridge.subscription import compress, encoder, fragments
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields, typestore
 
@@ -61,7 +61,7 @@ def test_raw_cbor_holds_the_message_in_cdr() -> None:
 @pytest.mark.parametrize("length", [0, 1, 2, 3, 11, 12, 13, 1000, 100_001])
 def test_png_holds_the_text_and_line_breaks(length: int) -> None:
     text = json.dumps({"op": "publish", "data": "é" * length})
-    packed = json.loads(png.compress(text))
+    packed = json.loads(compress(text))
     assert packed["op"] == "png"
     with Image.open(io.BytesIO(base64.b64decode(packed["data"]))) as image:
         assert image.mode == "RGB"

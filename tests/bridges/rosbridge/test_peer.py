@@ -15,7 +15,7 @@ import websocket
 
 from tests.time_limit import PATIENCE
 from urdfkit.bridges.bridge import MOST_BYTES
-from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
+from urdfkit.bridges.rosbridge.peer import serve_rosbridge
 from urdfkit.bridges.websocket.address import Address
 from urdfkit.bridges.websocket.server import WebSocketServer
 from urdfkit.messages import header, message_type

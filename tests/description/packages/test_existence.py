@@ -6,9 +6,8 @@ import pytest
 
 from urdfkit.description.control.ros1_launch import read_launch
 from urdfkit.description.packages.existence import exists, is_file, is_folder
-from urdfkit.description.packages.letter_case import in_any_case
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.packages.similar_names import near_path
+from urdfkit.description.packages.similar_names import in_any_case, near_path
 from urdfkit.description.sdf import load_world
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.run import run

@@ -41,8 +41,7 @@ class SceneBodies:
         """Show the robots and bodies of the world in their current poses."""
         from urdfkit.scene import Scene
         from urdfkit.view.content.joint_panel import joint_rows
-        from urdfkit.view.content.meshcat_objects import draw, link_path
-        from urdfkit.view.content.scene_changes import draw_more, forget_others
+        from urdfkit.view.content.meshcat_objects import draw, draw_more, forget_others, link_path
 
         simulator, first = self._simulator, self.revision < 0
         drawn = tuple(simulator.world.body_poses())

@@ -1,10 +1,10 @@
-"""One client of rosbridge: the operations of the protocol, version 2.
+"""Rosbridge: the server for one simulation, and the operations of its clients by the protocol, version 2.
 
 https://github.com/RobotWebTools/rosbridge_suite/blob/ros2/ROSBRIDGE_PROTOCOL.md
 """
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from urdfkit.bridges.graph import Graph
@@ -13,7 +13,9 @@ from urdfkit.bridges.published_message import PublishedMessage
 from urdfkit.bridges.rosbridge.incoming_goals import ClientGoals
 from urdfkit.bridges.rosbridge.rosapi import Rosapi
 from urdfkit.bridges.rosbridge.subscription import encoder
+from urdfkit.bridges.websocket.address import Address
 from urdfkit.bridges.websocket.send_queue import MAX_MESSAGES, SendQueue, SubscriptionQueue
+from urdfkit.bridges.websocket.server import WebSocketServer
 from urdfkit.bus import absolute, similar_topic
 from urdfkit.errors import UrdfkitError, UsageError
 
@@ -172,3 +174,23 @@ def _number(message: dict[str, Any], name: str) -> int:
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < 1e9:
         raise UsageError(f"`{name}` is `{value}`; it must be a number, zero or greater")
     return int(value)
+
+
+DEFAULT_PORT = 9090
+
+
+def serve_rosbridge(
+    graph: Graph, address: Address, *, origins: Sequence[str] = (), report: Callable[[str], None]
+) -> WebSocketServer:
+    """Serve a simulation to the clients of rosbridge until the server is closed.
+
+    Args:
+        graph: the topics and services of the simulation.
+        address: to listen on.
+        origins: origins of web pages that may connect, in addition to pages of this machine.
+        report: receives a line about each kind of message that was dropped.
+
+    Raises:
+        UsageError: the port is in use or the address cannot be bound.
+    """
+    return WebSocketServer(graph, address, lambda queue: RosbridgePeer(graph, queue, report), origins=origins)

@@ -1,11 +1,15 @@
 """Subscription of a rosbridge client: its compression, and the frames of a message."""
 
+import base64
 import itertools
 import json
+import math
+import struct
+import zlib
 
 from urdfkit.bridges.json_messages import to_json
 from urdfkit.bridges.published_message import PublishedMessage
-from urdfkit.bridges.rosbridge import cbor, png
+from urdfkit.bridges.rosbridge import cbor
 from urdfkit.bridges.websocket.send_queue import Encode, Frame
 from urdfkit.errors import UsageError
 
@@ -41,7 +45,7 @@ def as_json(sample: PublishedMessage) -> str:
 
 
 def _as_png(sample: PublishedMessage) -> str:
-    return png.compress(sample.encoded("none", as_json))
+    return compress(sample.encoded("none", as_json))
 
 
 def _as_cbor(sample: PublishedMessage) -> cbor.Parts:
@@ -65,3 +69,26 @@ def fragments(text: str, size: int) -> list[Frame]:
         json.dumps({"op": "fragment", "id": name, "data": part, "num": number, "total": len(parts)})
         for number, part in enumerate(parts)
     ]
+
+
+LEVEL = 1
+"""Level of zlib: the fastest one, because the text is compressed for every message."""
+
+
+def compress(text: str) -> str:
+    """Return the ``png`` message with a JSON text, whose bytes are the pixels of an RGB image.
+
+    The image is filled up with line breaks.
+    """
+    content = text.encode()
+    width = max(1, math.isqrt(len(content) // 3))
+    height = -(-len(content) // (3 * width))
+    content = content.ljust(3 * width * height, b"\n")
+    rows = b"".join(b"\0" + content[k : k + 3 * width] for k in range(0, len(content), 3 * width))
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    chunks = (_chunk(b"IHDR", header), _chunk(b"IDAT", zlib.compress(rows, LEVEL)), _chunk(b"IEND", b""))
+    return json.dumps({"op": "png", "data": base64.b64encode(b"\x89PNG\r\n\x1a\n" + b"".join(chunks)).decode("ascii")})
+
+
+def _chunk(name: bytes, content: bytes) -> bytes:
+    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))

@@ -12,9 +12,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_macro, load_robot, named_robot, warn_of_unused_arguments
 from urdfkit.cli.sim import option_values
-from urdfkit.cli.sim.plugin_options import add_controllers, add_distro
-from urdfkit.cli.sim.renderer_option import add_renderer
-from urdfkit.cli.sim.repair_options import add_repair_options
+from urdfkit.cli.sim.simulation_options import add_controllers, add_distro, add_renderer, add_repair_options
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:

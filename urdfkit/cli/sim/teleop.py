@@ -15,10 +15,8 @@ from urdfkit.cli.robot_arguments.robot_loading import (
     warn_of_unused_arguments,
 )
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
-from urdfkit.cli.sim.plugin_options import add_controllers, add_distro
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
-from urdfkit.cli.sim.renderer_option import add_renderer
-from urdfkit.cli.sim.repair_options import add_repair_options
+from urdfkit.cli.sim.simulation_options import add_controllers, add_distro, add_renderer, add_repair_options
 from urdfkit.cli.sim.terminal_option import add_terminal, check_terminal, terminal_driving
 from urdfkit.cli.sim.warnings import GroupedWarnings, note_lint_target
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
 
-from urdfkit.cli.sim.repair_options import print_warning
+from urdfkit.cli.sim.simulation_options import print_warning
 from urdfkit.description.urdf.repair_record import ALL_PLACES, Repair
 from urdfkit.notice import Notice
 

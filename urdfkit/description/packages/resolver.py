@@ -183,7 +183,7 @@ class Packages:
             written: the path as in the description.
             position: its first position in the description.
         """
-        from urdfkit.description.packages.letter_case import in_any_case
+        from urdfkit.description.packages.similar_names import in_any_case
 
         found = in_any_case(path) if self.permits(path) else None
         if found is None or not self.permits(found):

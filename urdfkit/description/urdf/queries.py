@@ -1,11 +1,13 @@
-"""Queries on a robot, shared by rules, `load`, the model builder and the simulator."""
+"""Queries on a robot, shared by rules, `load`, the model builder and the simulator; likely corrections of children."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from urdfkit.description.urdf.robot import Joint, Link, Robot
 from urdfkit.description.xml.element import Element
+from urdfkit.errors import nearest
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -112,3 +114,23 @@ def owners(robot: Robot) -> dict[Element, Owner]:
     for joint in robot.joints:
         found.update((element, (None, joint.name)) for element in joint.element.walk())
     return found
+
+
+_CUTOFF = 0.6
+"""Minimum similarity to the name of a link without parent: `amr` for `arm`."""
+
+
+def meant_child(robot: Robot, name: str) -> str | None:
+    """Return the link most similar to an undefined child; None without a similar one."""
+    return nearest(name, robot.link_by_name, cutoff=0.7) or nearest(name, robot.root_by_name, cutoff=_CUTOFF)
+
+
+def likely_children(robot: Robot, *, most: int | None = None) -> dict[str, str]:
+    """Return undefined child → its likely correction.
+
+    Args:
+        robot: the robot.
+        most: maximum number of undefined children to correct, each of which costs a search; all without a number.
+    """
+    names = (name for _, name, _ in islice(dangling(robot, "child"), most))
+    return {name: meant for name in names if (meant := meant_child(robot, name)) is not None}

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.meshes.unique_rows import unique_rows
+from urdfkit.meshes.triangle_mesh import unique_rows
 
 CREASE = np.deg2rad(35.0)
 """Neighbouring faces that meet at less than this angle are shaded as one smooth surface [rad]."""

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.meshes.unique_rows import unique_rows
+from urdfkit.meshes.triangle_mesh import unique_rows
 from urdfkit.scene import TriMesh
 from urdfkit.view.content.crease_normals import crease, flat_normals
 

@@ -1,7 +1,7 @@
-"""Scene → meshcat objects at ``/robot/links/<link>/{visual,collision}/<n>``."""
+"""Scene → meshcat objects at ``/robot/links/<link>/{visual,collision}/<n>``, all of them or a part."""
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -176,3 +176,28 @@ def capsule(radius: float, length: float) -> TriMesh:
             faces += [(a, a + n, b)] if row > 0 else []
             faces += [(b, a + n, b + n)] if row < last else []
     return TriMesh(vertices.astype(np.float32), np.array(faces, dtype=np.int32))
+
+
+def draw_more(
+    shapes: Sequence[Shape], window: Any, geometries: GeometryStore, *, instead_of: Sequence[str] = ()
+) -> None:
+    """Add shapes to the shown scene.
+
+    Args:
+        shapes: the added shapes.
+        window: receives meshcat commands by ``send``.
+        geometries: receives the meshes; none is removed, see `forget_others`.
+        instead_of: bodies whose shapes are removed first.
+    """
+    import meshcat  # after `meshcat_objects`, which suppresses its warnings
+
+    root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
+    for body in instead_of:
+        root[link_path(body).lstrip("/")].delete()
+    draw_shapes(shapes, root, geometries)
+
+
+def forget_others(shapes: Iterable[Shape], geometries: GeometryStore) -> None:
+    """Remove all meshes except those of these shapes."""
+    used = (geometry_of(shape, geometries)[0] for shape in shapes)
+    geometries.keep_only({geometry.name for geometry in used if isinstance(geometry, SharedGeometry)})

@@ -1,12 +1,51 @@
-"""AuthenticatedHandler: base class of all handlers; checks host, origin and cookie before a request is processed."""
+"""AuthenticatedHandler: base class of all handlers; checks host, origin and cookie before a request is processed.
+
+It sets the headers of every response.
+"""
 
 from typing import Any
 
 from tornado.web import RequestHandler
 
-from urdfkit.network.access_control import AccessControl
-from urdfkit.view.server.response_headers import headers
+from urdfkit.network.access_control import AccessControl, host_name
 from urdfkit.view.server.server_interface import PageServer
+
+EMPTY_STYLE = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='"
+"""Hash of the empty string: meshcat's bundle creates an empty style element and fills it through the DOM."""
+
+DAT_GUI_STYLES = ("'sha256-K7kXOYqP8pf16L5/PaLZ4u9Lt5q3nTyjCvyGtO/Af2k='",)
+"""Hashes of the style sheets that meshcat's bundle injects for its own control panel, which is hidden here."""
+
+
+def headers(host: str, *, framed: bool = False) -> dict[str, str]:
+    """Return the headers of every response.
+
+    Args:
+        host: the Host header, for the address of the WebSocket (older Safari does not count it as 'self').
+        framed: whether another page, such as a notebook, may show the response in a frame.
+    """
+    policy = {
+        "default-src": "'none'",
+        "script-src": "'self'",
+        "style-src": " ".join(("'self'", EMPTY_STYLE, *DAT_GUI_STYLES)),
+        "img-src": "'self' data: blob:",
+        "connect-src": f"'self' ws://{host}" if host_name(host) else "'self'",
+        "manifest-src": "'self'",
+        "base-uri": "'none'",
+        "form-action": "'none'",
+        "frame-ancestors": "*" if framed else "'none'",
+    }
+    framing = {} if framed else {"X-Frame-Options": "DENY"}
+    return framing | {
+        "Content-Security-Policy": "; ".join(f"{name} {value}" for name, value in policy.items()),
+        "X-Content-Type-Options": "nosniff",
+        "Referrer-Policy": "no-referrer",
+        "Cross-Origin-Opener-Policy": "same-origin",
+        "Cross-Origin-Resource-Policy": "same-origin",
+        "Permissions-Policy": "camera=(), microphone=(), geolocation=(), gamepad=(self), fullscreen=(self)",
+        "Cache-Control": "no-store",
+    }
+
 
 NO_COOKIE = "This browser has not sent the token yet, or urdfkit was restarted with a new token."
 

@@ -11,9 +11,8 @@ from tornado.web import Application, HTTPError
 from urdfkit.errors import MissingDependencyError
 from urdfkit.view.content.mesh_store import EDGES
 from urdfkit.view.protocol import websocket_messages
-from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler
+from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler, headers
 from urdfkit.view.server.page_socket import PageSocket
-from urdfkit.view.server.response_headers import headers
 from urdfkit.view.server.server_interface import PageServer
 
 PING = 5.0

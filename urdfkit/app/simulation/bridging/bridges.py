@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
-from urdfkit.app.simulation.bridging.controls import Controls
 from urdfkit.app.simulation.bridging.description_text import DESCRIPTION, publish_description
 from urdfkit.app.simulation.bridging.ros_connection import RosOptions, connect_to_ros
 from urdfkit.app.simulation.bridging.services import simulation_services
+from urdfkit.app.simulation.bridging.simulation_interfaces import Controls
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.service import Service
@@ -111,7 +111,7 @@ def open_bridges(
         UrdfkitError: a port is in use, or a graph of ROS cannot be joined.
     """
     from urdfkit.bridges.foxglove.bridge import FoxgloveServer
-    from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
+    from urdfkit.bridges.rosbridge.peer import serve_rosbridge
 
     parameters = {DESCRIPTION: description, "/use_sim_time": True}
 

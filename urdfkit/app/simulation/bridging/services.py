@@ -3,8 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from urdfkit.app.simulation.bridging.controls import Controls
-from urdfkit.app.simulation.bridging.simulation_interfaces import standard_services
+from urdfkit.app.simulation.bridging.simulation_interfaces import Controls, standard_services
 from urdfkit.bridges.service import Service, response
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.sim.simulator import Simulator

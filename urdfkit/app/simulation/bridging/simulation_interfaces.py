@@ -5,9 +5,8 @@ https://github.com/ros-simulation/simulation_interfaces; a response contains a r
 
 import re
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Protocol
 
-from urdfkit.app.simulation.bridging.controls import Controls
 from urdfkit.bridges.service import Service, response
 from urdfkit.description.sdf.model_library import world_names
 from urdfkit.errors import UrdfkitError
@@ -16,6 +15,17 @@ from urdfkit.sim.state.poses import pose_from
 from urdfkit.sim.state.quaternion import rotate
 from urdfkit.sim.world.pose_messages import composed, seven_of, six_of
 from urdfkit.sim.world.spawn_requests import spawn_request, spawn_request_of_text
+
+
+class Controls(Protocol):
+    """What pauses and resets a running simulation."""
+
+    def reset(self) -> None:
+        """Reset the simulation."""
+
+    def pause(self, paused: bool) -> None:
+        """Pause or continue."""
+
 
 UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, FAILED = range(5)
 NAME_NOT_UNIQUE, NAME_INVALID, NO_RESOURCE, NAMESPACE_INVALID, PARSE_ERROR, INVALID_POSE = 101, 102, 104, 105, 106, 109

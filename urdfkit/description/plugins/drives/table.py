@@ -4,10 +4,9 @@ Placeholders in defaults are replaced per model: ``{model}`` is its name, ``{roo
 """
 
 from urdfkit.description.plugins.drives.ackermann import ACKERMANN
-from urdfkit.description.plugins.drives.diff_drive import DIFF_DRIVE
+from urdfkit.description.plugins.drives.diff_drive import DIFF_DRIVE, SKID_STEER_ROS_1
 from urdfkit.description.plugins.drives.gz_mecanum_drive import MECANUM_DRIVE_GZ, ODOMETRY_PUBLISHER_GZ
 from urdfkit.description.plugins.drives.planar_move import PLANAR_MOVE
-from urdfkit.description.plugins.drives.skid_steer import SKID_STEER_ROS_1
 from urdfkit.description.plugins.drives.tricycle import TRICYCLE
 
 DRIVES = (

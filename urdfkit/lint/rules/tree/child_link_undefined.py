@@ -1,8 +1,7 @@
 """T202 child-link-undefined."""
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.description.urdf.likely_children import meant_child
-from urdfkit.description.urdf.queries import dangling
+from urdfkit.description.urdf.queries import dangling, meant_child
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -33,8 +33,7 @@ class MultipleRoots(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each root except that of the largest tree."""
-        from urdfkit.description.urdf.likely_children import likely_children
-        from urdfkit.description.urdf.queries import dangling
+        from urdfkit.description.urdf.queries import dangling, likely_children
 
         robot = model.robot
         roots = robot.roots()

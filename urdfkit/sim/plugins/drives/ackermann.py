@@ -14,8 +14,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
 from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
-from urdfkit.sim.plugins.drives.set_joint_position import put
-from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
+from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive, put
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup

@@ -1,8 +1,10 @@
-"""Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and gz sim's DiffDrive system.
+"""Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and gz sim's DiffDrive system; skid steer of ROS 1.
 
-Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp; gz-sim main,
-src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 swapped left and right (``legacyMode``); urdfkit emulates this
-for these distributions only.
+ROS 2 and gz sim use the differential drive with more pairs of wheels instead of skid steer.
+
+Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp and
+gazebo_ros_skid_steer_drive.cpp; gz-sim main, src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 swapped left and
+right (``legacyMode``); urdfkit emulates this for these distributions only.
 """
 
 from typing import Any
@@ -194,3 +196,36 @@ class DiffDrive(VelocityDrive):
         super().reset()
         self._enabled = True
         self._instructed = [0.0] * len(self._instructed)
+
+
+class SkidSteer(DiffDrive):
+    """Drives two wheels on each side at v ± w·separation/2; the motion of the robot results from wheel friction.
+
+    The odometry is the true pose in the world with a height of zero. Left and right are never swapped.
+    """
+
+    kind = "skid_steer"
+
+    def _topic_names(self, setup: Setup) -> Topics:
+        # Unlike the differential drive, its default namespace is empty.
+        return self.topic_names()
+
+    def _read_wheels(self, setup: Setup, read: Parameters) -> None:
+        def joint(meaning: str) -> str:
+            return setup.joint(read.text(meaning), read.place(meaning))
+
+        self._pairs = tuple((joint(f"left_{end}_joint"), joint(f"right_{end}_joint")) for end in ("front", "rear"))
+        self._separations = (read.number("wheel_separation"),) * 2
+        self._radii = (read.number("wheel_diameter") / 2,) * 2
+        self._swapped = False
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self.topics = odometry_topics(
+            setup,
+            read,
+            topics,
+            published=True,
+            with_tf=read.flag("publish_odometry_tf"),
+            twist_covariance=True,
+            flat=True,
+        )

@@ -8,8 +8,7 @@ away from most targets; its encoders have the wrong sign; its velocity is in the
 from math import pi
 
 from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_topics
-from urdfkit.sim.plugins.drives.set_joint_position import put
-from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
+from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive, put
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from copy import copy
+from math import inf
 from typing import Any
 
 from urdfkit.bus import Topic
@@ -185,3 +186,15 @@ def joints_of(setup: Setup, read: Parameters, meaning: str) -> tuple[str, ...]:
         message = f"no <{read.tag(meaning)}>; this drive needs at least one"
         raise SimulationError(message, position=read.place(meaning), code="Z831")
     return tuple(setup.joint(name, read.place(meaning, index)) for index, name in enumerate(names))
+
+
+def put(joint: str, position: float, period: float, *, setup: Setup, state: State, motors: Motors) -> None:
+    """Move a joint to a position [rad] within its limits, in `period` [s] and with unlimited effort.
+
+    Gazebo's Joint::SetPosition sets the position directly, which disturbs contacts. A step integrates with the mean of
+    the velocities at its start and end, so a joint still moves for half a step when its motor stops it.
+    """
+    lower, upper = setup.kinematics.limits(joint)
+    target = max(lower, min(upper, position))
+    now = state.position(joint) + state.velocity(joint) * setup.dt / 2
+    motors.drive(joint, (target - now) / period, inf)

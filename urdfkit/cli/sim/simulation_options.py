@@ -1,0 +1,84 @@
+"""Options of every command that simulates: repairs, renderer, controllers and ROS distribution; and its warnings."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from urdfkit.cli.robot_arguments.robot_loading import add_strict
+from urdfkit.cli.sim import option_values
+from urdfkit.notice import Notice
+
+SYNONYMS = {"gl": ("opengl", "egl", "gpu", "moderngl"), "ray": ("rays", "raycast", "raycaster", "raytracer", "cpu")}
+"""Other names of the renderers."""
+
+
+def add_repair_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options `--strict` and `--density`."""
+    add_strict(parser, "an estimated mass")
+    parser.add_argument(
+        "--density",
+        type=option_values.positive,
+        default=1000.0,
+        metavar="KG/M3",
+        help="density to estimate the mass of moving links without one [kg/m³] (default: 1000)",
+    )
+
+
+def print_warning(text: str) -> None:
+    """Print a warning of a simulation, a note (`Repairs.add`) or the line before a compilation on standard error."""
+    before = {"warning": "urdfkit: warning: ", "note": "urdfkit: ", "progress": ""}[Notice.of(text).severity]
+    print(f"{before}{text}", file=sys.stderr, flush=True)
+
+
+def _renderer(word: str) -> str:
+    """Return the renderer with a name or synonym."""
+    plain = word.lower()
+    return next((name for name, others in SYNONYMS.items() if plain in others), plain)
+
+
+def add_renderer(parser: argparse.ArgumentParser) -> None:
+    """Add the option `--renderer`."""
+    parser.add_argument(
+        "--renderer",
+        type=_renderer,
+        choices=("auto", "ray", "gl"),
+        default="auto",
+        help="renderer of camera images: ray casts rays (also rays, cpu), gl uses OpenGL (also opengl, egl, "
+        "gpu), auto selects the faster one (default: auto)",
+    )
+
+
+def add_controllers(parser: argparse.ArgumentParser) -> None:
+    """Add the option `--controllers`."""
+    parser.add_argument(
+        "--controllers",
+        action="append",
+        type=parameter_file,
+        default=[],
+        metavar="FILE.yaml",
+        help="controller parameters to use instead of those of the robot's packages (repeatable)",
+    )
+
+
+def parameter_file(text: str) -> str:
+    """Return the path of an existing file.
+
+    Raises:
+        argparse.ArgumentTypeError: the file does not exist.
+    """
+    from urdfkit.description.packages.similar_names import near_path
+
+    path = Path(text)
+    if not path.is_file():
+        wrong = "it is a folder" if path.is_dir() else f"no such file{near_path(path)}"
+        raise argparse.ArgumentTypeError(f"cannot read {text}: {wrong}")
+    return text
+
+
+def add_distro(parser: argparse.ArgumentParser) -> None:
+    """Add the option `--ros-distro`; the simulator checks its value."""
+    parser.add_argument(
+        "--ros-distro",
+        metavar="NAME",
+        help="reproduce the behaviour of this ROS distribution, e.g. kinetic (default: the newest)",
+    )
