@@ -23,7 +23,30 @@ CONDITION = '<arg name="gui" default="true"/><node if="{}" pkg="rviz" type="rviz
 INCLUDE = '<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"><arg name="{}" value="-r"/></include>'
 YAML_TEXT = 'the launch reads the output of the command as YAML, and stops at text that is not YAML; add `type="str"`'
 CONDITION_TEXT = "condition `$(arg gui)!=false` is not evaluated, because other text surrounds it; write `$(eval …)`"
+PLUGIN = '<node pkg="moveit_ros_move_group" type="move_group" name="move_group"><param name="{}" value="{}"/></node>'
+PLANNER = PLUGIN.format("planning_plugin", "{}")
+ADAPTERS = PLUGIN.format("request_adapters", "default_planner_request_adapters/FixStartStateBounds {}")
+MANAGER2 = PLUGIN.format("moveit_controller_manager", "{}/MoveItFakeControllerManager").replace("type", "exec")
+BASE = '<node pkg="move_base" type="move_base" name="m"><param name="base_global_planner" value="{}"/></node>'
 CASES = [
+    (1, PLANNER, "ompl_interface/OMPLPlannerPlugin", "ompl_interface/OMPLPlanner", "has no plugin `OMPLPlannerPlugin`"),
+    (1, BASE, "nav2_navfn_planner/NavfnPlanner", "navfn/NavfnROS", "ROS 1; did you mean `navfn/NavfnROS`?"),
+    (
+        1,
+        ADAPTERS,
+        "default_planning_request_adapters/CheckStartStateBounds",
+        "default_planner_request_adapters/FixWorkspaceBounds",
+        "belongs to ROS 2, and this file is for ROS 1",
+    ),
+    (2, MANAGER2, "moveit_fake_controller_manager", "my_controller_manager", "belongs to ROS 1, and this file is"),
+    (
+        1,
+        '<node pkg="controller_manager" type="{}" name="s" args="arm"/>',
+        "spawner.py",
+        "spawner",
+        "`spawner.py` in ROS 1; did you mean `spawner`?",
+    ),
+    (2, '<arg name="gui" {}="true"/>', "value", "default", "no attribute `value` in ROS 2; did you mean `default`?"),
     (1, NODELET.format("{}") + MANAGER, "cameras", "manager", "no launch file starts the nodelet manager `cameras`"),
     (1, STATIC, "base_link world", "world base_link", "the virtual joint of the SRDF puts `base_link` below `world`"),
     (
@@ -70,3 +93,33 @@ def test_a_wrong_name_is_reported(tmp_path: Path, version: int, text: str, wrong
         path = tmp_path / "launch" / ("arm.launch" if version == 1 else "arm.launch.xml")
         path.write_text(f"<launch>{text.replace('{}', name)}</launch>")
         assert sum(words in each.text for each in lint(tmp_path)) == count
+
+
+MECANUM = """controller_manager:
+  ros__parameters:
+    base:
+      type: mecanum_drive_controller/MecanumDriveController
+base:
+  ros__parameters:
+    reference_timeout: 0.5
+"""
+
+
+@pytest.mark.parametrize(
+    ("setting", "topic", "count"),
+    [
+        ("", "reference", 0),
+        ("", "reference_unstamped", 1),
+        ("", "cmd_vel", 1),
+        ("    use_stamped_vel: false\n", "reference_unstamped", 0),
+        ("    use_stamped_vel: false\n", "reference", 1),
+    ],
+)
+def test_a_mecanum_controller_reads_one_of_two_topics(tmp_path: Path, setting: str, topic: str, count: int) -> None:
+    manifest = "<name>arm</name><version>1.0.0</version><buildtool_depend>ament_cmake</buildtool_depend>"
+    (tmp_path / "package.xml").write_text(f'<package format="3">{manifest}</package>')
+    (tmp_path / "arm.urdf").write_text(ROBOT)
+    (tmp_path / "base.yaml").write_text(MECANUM + setting)
+    node = f'<node pkg="twist_mux" exec="twist_mux"><remap from="cmd_vel_out" to="/base/{topic}"/></node>'
+    (tmp_path / "base.launch.xml").write_text(f"<launch>{node}</launch>")
+    assert sum("no node subscribes" in each.text for each in lint(tmp_path)) == count

@@ -57,8 +57,9 @@ _ONLY_IN = {
     xacro.py; gazebo_ros: gazebo spawn_model debug perf gdbrun urdf2gazebo libcommon.sh; teleop_twist_keyboard:
     teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node; imu_filter_madgwick:
     imu_filter_node""",
-    2: """controller_manager: ros2_control_node hardware_spawner; gazebo_ros: spawn_entity.py; robot_localization:
-    ekf_node ukf_node robot_localization_listener_node; teleop_twist_keyboard: teleop_twist_keyboard;
+    2: """controller_manager: ros2_control_node hardware_spawner spawner.py unspawner.py hardware_spawner.py;
+    gazebo_ros: spawn_entity.py; robot_localization: ekf_node ukf_node
+    robot_localization_listener_node; teleop_twist_keyboard: teleop_twist_keyboard;
     imu_filter_madgwick: imu_filter_madgwick_node""",
 }
 """Version of ROS → executables that no release of the other version has."""

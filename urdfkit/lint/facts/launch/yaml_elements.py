@@ -84,6 +84,9 @@ def _action(key: Node, name: str, value: Node) -> Defects:
             if near is not None:
                 found.add(near)
                 yield each, f"unknown key `{each.text}` of `{key.text}`" + Suggestion(near, each.text)
+        elif name == "arg" and each.text == "value":
+            right = None if "default" in written else "default"
+            yield each, "`arg` has no key `value` in ROS 2" + Suggestion(right, each.text)
         elif each.text == "output" and inner.kind == "text" and not is_output(inner.text, 2):
             yield inner, f"unknown output `{inner.text}`" + did_you_mean(inner.text, OUTPUTS[2])
     for names in element.required:

@@ -12,6 +12,8 @@ from collections.abc import Collection, Iterable, Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
+from urdfkit.lint.facts.launch.ros_version import ros_version
+from urdfkit.lint.facts.moveit.plugin_names import PLUGINS, wrong_plugins
 from urdfkit.lint.facts.moveit.settings import unwrapped
 
 _PLANNERS = """
@@ -53,8 +55,9 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
     """
     from urdfkit.lint.fix_builders import nearest
 
+    version = ros_version(source)
     for document in documents(source):
-        yield from _plugins(document)
+        yield from _plugins(document, version)
         for node in walk(document):
             yield from _pipeline(node)
         for top in unwrapped(document):
@@ -167,10 +170,16 @@ def _hint(name: str, names: Iterable[str]) -> str:
     return meant(name, names)[1]
 
 
-def _plugins(document: Node) -> Defects:
+def _plugins(document: Node, version: int) -> Defects:
+    seen = set[int]()
     for node in walk(document):
+        listed = [each for key, value in node.entries if re.search(PLUGINS, key.text) for each in (value, *value.items)]
+        for value in listed if version else ():
+            for _, _, message in wrong_plugins(value.text, version):
+                seen.add(id(value))
+                yield value, message
         values = [value for key, value in node.entries if key.text not in ("description", "name")]
-        for value in (*values, *node.items):
+        for value in (each for each in (*values, *node.items) if id(each) not in seen):
             near = meant_plugin(value.text) if value.kind == "text" else None
             if near is not None:
                 kind = "planner" if near.startswith("geometric::") else "plugin"

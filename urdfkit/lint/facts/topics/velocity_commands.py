@@ -3,7 +3,8 @@
 Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher,
 robot_localization (navsat_transform.cpp, ros_filter.cpp), octomap_server (octomap_server.cpp), nav2_velocity_smoother,
 nmea_navsat_driver (driver.py),
-diff_drive_controller and steering_controllers_library (README and source files), Noetic to Rolling.
+diff_drive_controller, mecanum_drive_controller and steering_controllers_library (README and source files), Noetic to
+Rolling.
 """
 
 from __future__ import annotations
@@ -270,16 +271,23 @@ def _drives(model: Model) -> dict[str, str]:
     """Return the names of the drive controllers → their type."""
     found = {each.name: each.kind.text for source in yamls(model) for each in declared(source)}
     found |= {each.name: each.kind for source in yamls(model) for each in settings(source)}
-    return {name: kind for name, kind in found.items() if "diff_drive" in kind or "_steering_controller/" in kind}
+    return {name: kind for name, kind in found.items() if re.search(r"diff_drive|_steering_controller/|mecanum_", kind)}
 
 
 def drive_command_topics(model: Model) -> frozenset[str]:
     """Return the topics of velocity commands that controllers, plugins and bridges read."""
     found = set[str]()
+    flags = [source.text for source in yamls(model) if "use_stamped_vel" in source.text]
     for name, kind in _drives(model).items():
-        is_unstamped = any(re.search(r"use_stamped_vel\s*:\s*false", source.text, re.I) for source in yamls(model))
-        if "_steering_controller/" in kind:
-            found |= {f"{name}/reference_unstamped"} | ({f"{name}/reference"} if not is_unstamped else set())
+        is_unstamped, is_stamped = (
+            any(re.search(rf"use_stamped_vel\s*:\s*{word}", text, re.I) for text in flags) for word in ("false", "true")
+        )
+        if "_steering_controller/" in kind:  # the default differs between releases
+            found |= {f"{name}/reference_unstamped"} if not is_stamped else set()
+            found |= {f"{name}/reference"} if not is_unstamped else set()
+            continue
+        if "mecanum_drive_controller/" in kind:  # has `use_stamped_vel` in Humble only
+            found.add(f"{name}/reference_unstamped" if is_unstamped else f"{name}/reference")
             continue
         found.add(f"{name}/cmd_vel_unstamped" if is_unstamped else f"{name}/cmd_vel")
     for text, _, parameter, _ in references(model, ("topic",)):

@@ -108,6 +108,11 @@ class LaunchElementInvalid(RobotRule):
                 place = (attribute.start, attribute.start + len(attribute.name))
                 # roslaunch ignores unknown attributes and prints a warning.
                 yield self._at(source, place, message, "error" if near else "warning")
+        if version == 2 and tag.name == "arg" and above.name != "include" and "value" in attributes:
+            value = attributes["value"]
+            message = "<arg> has no attribute `value` in ROS 2"
+            right = None if "default" in attributes else "default"
+            yield self._at(source, (value.start, value.start + 5), message + Suggestion(right, "value"))
         required = list(element.required)
         if tag.name == "arg" and above.name == "include" and "pass_all_args" not in above.attributes:
             required.append("value|default" if version == 1 else "value")

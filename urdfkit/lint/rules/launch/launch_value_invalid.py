@@ -35,6 +35,7 @@ class LaunchValueInvalid(RobotRule):
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
+    - unknown plugins of MoveIt and of navigation, and those of the other version of ROS
     - parameter files with substitutions but without ``subst_value``, files that are loaded into the wrong namespace or
       parameter, and MoveIt files that no launch file loads
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
@@ -66,6 +67,7 @@ class LaunchValueInvalid(RobotRule):
         """Yield a finding for each unusable value."""
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
+        from urdfkit.lint.facts.moveit.plugin_names import wrong_plugins_in_launch
         from urdfkit.lint.facts.parameters.launch_parameters import launch_parameter_defects
         from urdfkit.lint.facts.parameters.loaded_files import (
             controllers_without_manager,
@@ -105,7 +107,7 @@ class LaunchValueInvalid(RobotRule):
             for attribute, message in found_in_files if version == 1 else ():
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message, severity="warning")
-            for word, message in launch_parameter_defects(source):
+            for word, message in (*launch_parameter_defects(source), *wrong_plugins_in_launch(source)):
                 span = source.span(word.start, word.end)
                 yield self.at_span(span, message, severity="warning")
 
