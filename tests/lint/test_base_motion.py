@@ -1,4 +1,4 @@
-"""Parameters of navigation and filters that contradict whether the base can move sideways: each has one finding."""
+"""Filters and parameters of navigation that contradict the motion of the base: each has one finding."""
 
 from __future__ import annotations
 
@@ -25,15 +25,19 @@ FILTER = """ekf_filter_node:
     world_frame: odom
     map_frame: map
     base_link_frame: base_link
+    two_d_mode: true
     odom0: drive/odom
     odom0_config: [false, false, false,
                    false, false, false,
                    true, true, false,
                    false, false, true,
                    false, false, false]
+    frequency: 30.0
+    process_noise_covariance: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1]
 """
 NAVIGATION = """amcl:
   ros__parameters:
+    transform_tolerance: 0.3
     robot_model_type: nav2_amcl::OmniMotionModel
 controller_server:
   ros__parameters:
@@ -56,13 +60,19 @@ UNUSED = SIDEWAYS | {
     "nav2.yaml": FORWARDS["nav2.yaml"].replace("[0.5, 0.4", "[0.5, 0.0").replace("[-0.5, -0.4", "[-0.5, 0.0")
 }
 MISTAKES = [
-    (SIDEWAYS, "ekf.yaml", "true, true,", "true, false,", "K983", 10, "`odom0_config` does not fuse vy"),
-    (SIDEWAYS, "nav2.yaml", "OmniM", "DifferentialM", "K982", 3, "but the base can move sideways"),
-    (SIDEWAYS, "nav2.yaml", "model: Omni", "model: DiffDrive", "K982", 8, "`motion_model` is DiffDrive"),
-    (SIDEWAYS, "nav2.yaml", "vy_max: 0.4", "vy_max: 0.0", "K982", 9, "`vy_max` is 0.0, but the base can"),
-    (SIDEWAYS, "nav2.yaml", "[-0.5, -0.4", "[-0.5, 0.0", "K982", 14, "y of `min_velocity` is 0.0, but the base can"),
-    (FORWARDS, "nav2.yaml", "DifferentialM", "OmniM", "K982", 3, "but the base cannot move sideways"),
-    (FORWARDS, "nav2.yaml", "model: DiffDrive", "model: Omni", "K982", 8, "but the base cannot move sideways"),
+    (SIDEWAYS, "ekf.yaml", "true, true,", "true, false,", "K983", 11, "`odom0_config` does not fuse vy"),
+    (SIDEWAYS, "nav2.yaml", "OmniM", "DifferentialM", "K982", 4, "but the base can move sideways"),
+    (SIDEWAYS, "nav2.yaml", "model: Omni", "model: DiffDrive", "K982", 9, "`motion_model` is DiffDrive"),
+    (SIDEWAYS, "nav2.yaml", "vy_max: 0.4", "vy_max: 0.0", "K982", 10, "`vy_max` is 0.0, but the base can"),
+    (SIDEWAYS, "nav2.yaml", "[-0.5, -0.4", "[-0.5, 0.0", "K982", 15, "y of `min_velocity` is 0.0, but the base can"),
+    (FORWARDS, "ekf.yaml", "true, true,", "false, true,", "K983", 11, "`odom0_config` does not fuse vx; x drifts"),
+    (FORWARDS, "ekf.yaml", "false, false, true,", "false, false, false,", "K983", 12, "does not fuse vyaw; yaw drifts"),
+    (FORWARDS, "ekf.yaml", "mode: true", "mode: false", "K983", 7, "no input fuses z or vz"),
+    (FORWARDS, "ekf.yaml", "config: [false, false", "config: [true, true", "K983", 9, "fuse the velocities only"),
+    (FORWARDS, "ekf.yaml", "frequency: 30.0", "frequency: 2.0", "K983", 14, "in nav2.yaml is 0.3 s"),
+    (FORWARDS, "ekf.yaml", "[0.1, 0.1, ", "[0.1, ", "K971", 15, "has 14 values; 15 or 225 are needed"),
+    (FORWARDS, "nav2.yaml", "DifferentialM", "OmniM", "K982", 4, "but the base cannot move sideways"),
+    (FORWARDS, "nav2.yaml", "model: DiffDrive", "model: Omni", "K982", 9, "but the base cannot move sideways"),
 ]
 """Files, file, text, its replacement, code, line and a part of the message."""
 
@@ -72,7 +82,7 @@ def findings(folder, files, name="", old="", new=""):
     for file, text in ({"barge.urdf": ROBOT, "package.xml": MANIFEST.replace("CONTROLLER", kind)} | files).items():
         assert file != name or old in text, old
         (folder / file).write_text(text.replace(old, new, 1) if file == name else text)
-    return [one for one in lint(folder) if one.code in ("K982", "K983")]
+    return [one for one in lint(folder) if one.code in ("K971", "K982", "K983")]
 
 
 @pytest.mark.parametrize("files", [SIDEWAYS, FORWARDS, UNUSED], ids=["sideways", "forwards", "unused"])
@@ -87,6 +97,17 @@ def test_each_contradiction_has_one_finding(tmp_path, files, name, old, new, cod
     assert message in found.message
 
 
+def test_a_row_of_a_covariance_in_ros1(tmp_path):
+    rows = "\n".join(f"  {', '.join(['0.0'] * (14 if row == 3 else 15))}," for row in range(15))
+    frames = "world_frame: odom\nodom_frame: odom\nbase_link_frame: base_link\n"
+    files = {"package.xml": MANIFEST, "barge.urdf": ROBOT, "ekf.yaml": f"{frames}process_noise_covariance: [\n{rows}]"}
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    [found] = [one for one in lint(tmp_path) if one.file.endswith(".yaml")]
+    assert (found.code, found.line) == ("K971", 8)
+    assert "has 224 values" in found.message
+
+
 def test_two_drives_of_different_kinds_decide_nothing(tmp_path):
     second = {"other.yaml": DIFFERENTIAL.replace("drive:", "wheels:")}
-    assert findings(tmp_path, SIDEWAYS | second, "nav2.yaml", "OmniM", "DifferentialM") == []
+    assert findings(tmp_path, SIDEWAYS | second, "nav2.yaml", "model: Omni", "model: DiffDrive") == []

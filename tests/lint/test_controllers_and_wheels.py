@@ -143,3 +143,38 @@ def test_wheels_of_a_mecanum_controller(
     write("cart/config/drive.yaml", (text + "".join(lines) + f"    {settings}\n").encode())
     messages = [finding.message for finding in lint(model, select=("K970", "K971"))]
     assert messages == ([message] if message is not None else [])
+
+
+PLACES = {
+    "front_left": "0.3 0.2 0",
+    "front_right": "0.3 -0.2 0",
+    "rear_left": "-0.3 0.2 0",
+    "rear_right": "-0.3 -0.2 0",
+}
+
+
+@pytest.mark.parametrize(
+    ("total", "joints", "message"),
+    [
+        (0.5, CORNERS, None),
+        (0.54, CORNERS, None),
+        (1.0, CORNERS, "is 1 m, but half of the wheelbase and half of the track are 0.5 m"),
+        (0.5, ["front_left", "rear_right", "rear_left", "front_right"], "is at x = -0.3 m, y = -0.2 m"),
+    ],
+)
+def test_places_of_the_wheels_of_a_mecanum_controller(
+    total: float, joints: list[str], message: str | None, write
+) -> None:
+    write("cart/package.xml", MANIFEST)
+    wheels = [
+        WHEEL.format(name=name, xyz=xyz, axis="0 1 0").replace("visual", "collision") for name, xyz in PLACES.items()
+    ]
+    model = write("cart/urdf/cart.urdf", '<link name="base"/>' + "".join(wheels))
+    names = zip(CORNERS, joints, strict=True)
+    lines = [f"    {corner}_wheel_command_joint_name: {joint}_joint\n" for corner, joint in names]
+    text = "drive:\n  ros__parameters:\n    type: mecanum_drive_controller/MecanumDriveController\n"
+    last = f"    kinematics: {{wheels_radius: 0.1, sum_of_robot_center_projection_on_X_Y_axis: {total}}}\n"
+    write("cart/config/drive.yaml", (text + "".join(lines) + last).encode())
+    messages = [finding.message for finding in lint(model, select=("K970",))]
+    assert len(messages) == (message is not None)
+    assert all(message in one for one in messages)

@@ -411,7 +411,6 @@ GOOD = [
     ("slam", "mapping", "localization"),
     ("slam", "true", "off"),
     ("slam", "Ceres", "G2o"),
-    ("navigation", MOTION, "nav2_amcl::OmniMotionModel"),
     ("navigation", MOTION, "my_robot::MotionModel"),
     ("navigation", "OPEN_LOOP", "CLOSED_LOOP"),
     ("navigation", "LaserScan", "PointCloud2"),

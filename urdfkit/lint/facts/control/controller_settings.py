@@ -71,9 +71,11 @@ def settings(source: Source) -> tuple[ControllerSettings, ...]:
 @lru_cache(maxsize=400)
 def _settings(roots: tuple[Node, ...], controllers: tuple[DeclaredController, ...]) -> tuple[ControllerSettings, ...]:
     found = [(one.name, one.kind, one.settings) for one in controllers if one.settings is not None]
-    seen = {id(group) for _, _, group in found}
+    seen, named = {id(group) for _, _, group in found}, {name for name, _, _ in found}
     for name, group in (each for root in roots for each in groups(root)):
         kind = group.find("type")
+        if len(group.entries) == 1 and name in named:
+            continue  # the declaration of a controller whose parameters are in a section
         if kind is not None and re.fullmatch(r"\w+/\w+", kind.text) and id(group) not in seen:
             seen.add(id(group))
             found.append((name, kind, group))

@@ -7,7 +7,7 @@ from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
 from urdfkit.lint.facts.control.parameter_values import CORNER
-from urdfkit.lint.facts.control.yaml_tree import Node, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, number_of, yamls
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.description_files import descriptions
@@ -56,6 +56,51 @@ def mecanum_wheels(model: Model) -> Iterator[tuple[Source, Node, str, list[Wheel
                 yield source, controller.group, "kinematics.wheels_radius", wheels
                 if (group := controller.group.find("kinematics")) is not None:
                     yield source, group, "wheels_radius", wheels
+
+
+def mecanum_defects(model: Model) -> Iterator[tuple[Source, Node, str, str, str]]:
+    """Yield corners and distances of a mecanum controller that contradict the wheels: file, node, message, joint, help.
+
+    Source: mecanum_drive_controller (userdoc.rst: half of the wheelbase plus half of the track), Jazzy to Rolling.
+    """
+    for source in yamls(model):
+        for controller in settings(source) if "MecanumDriveController" in source.text else ():
+            named = {
+                key.text.removesuffix(CORNER): value for key, value in controller.group.entries if CORNER in key.text
+            }
+            wheels = dict(zip(named, _all_wheels(model, [value.text for value in named.values()]), strict=False))
+            if not {"front_left", "front_right", "rear_left", "rear_right"} <= wheels.keys():
+                continue
+            places = {name: wheel.place for name, wheel in wheels.items()}
+            x, y = (sum(place[k] for place in places.values()) / len(places) for k in (0, 1))
+            wrong = [
+                (name, next(other for other, at in places.items() if other != name and _corner(at, x, y) == name))
+                for name, place in places.items()
+                if _corner(place, x, y) != name
+                and sum(_corner(at, x, y) == name for other, at in places.items() if other != name) == 1
+            ]
+            for name, other in wrong[:1]:
+                place, help = places[name], f"exchange it with `{named[other].text}`"
+                where = f"x = {place[0]:g} m, y = {place[1]:g} m"
+                message = f"wheel `{named[name].text}` of `{name}{CORNER}` is at {where}"
+                yield source, named[name], message, named[name].text, help
+            group = controller.group.find("kinematics") or controller.group
+            value = group.find(_SUM) or group.find(f"kinematics.{_SUM}")
+            total, actual = (
+                number_of(value),
+                sum(abs(place[0] - x) + abs(place[1] - y) for place in places.values()) / len(places),
+            )
+            if value is not None and total and not wrong and abs(total - actual) > _MAX_DEVIATION * actual:
+                message = f"`{_SUM}` is {total:g} m, but half of the wheelbase and half of the track are {actual:.6g} m"
+                yield source, value, message, next(iter(wheels.values())).joint.name, f"write {actual:.6g}"
+
+
+_SUM = "sum_of_robot_center_projection_on_X_Y_axis"
+_MAX_DEVIATION = 0.1
+
+
+def _corner(place: tuple[float, float, float], x: float, y: float) -> str:
+    return f"{'front' if place[0] > x else 'rear'}_{'left' if place[1] > y else 'right'}"
 
 
 def _all_wheels(model: Model, names: list[str]) -> list[Wheel]:

@@ -52,7 +52,9 @@ def contradictions(model: Model) -> Defects:
     A base that can move sideways may be used without that: nothing is yielded unless another parameter allows it.
     """
     found = [(source, *each) for source in yamls(model) for each in _assumptions(source)]
-    if not found or (base := moves_sideways(model)) is None or has_other_wheels(model):
+    base = moves_sideways(model) if found else None
+    if base is None or has_other_wheels(model):
+        yield from _between_nodes(found)
         return
     if base and not any(is_sideways for *_, is_sideways, _ in found):
         return
@@ -60,6 +62,18 @@ def contradictions(model: Model) -> Defects:
         if is_sideways != base and (base or is_harmful):
             what = "can move sideways" if base else "cannot move sideways"
             yield source, value, f"{name} is {value.text}, but the base {what}"
+
+
+def _between_nodes(found: list[tuple[Source, str, Node, bool, bool]]) -> Defects:
+    """Yield a motion model of AMCL that contradicts all controllers of its file."""
+    for source, name, value, is_sideways, _ in found:
+        speeds = [moves for other, what, _, moves, _ in found if other is source and what in _SPEEDS]
+        if "robot_model" in name and speeds and is_sideways not in speeds:
+            does = "does not drive" if is_sideways else "drives"
+            yield source, value, f"{name} is `{value.text}`, but the controller {does} sideways"
+
+
+_SPEEDS = ("`max_vel_y`", "`vy_max`")
 
 
 def _assumptions(source: Source) -> Iterator[tuple[str, Node, bool, bool]]:

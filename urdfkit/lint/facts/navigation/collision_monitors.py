@@ -38,7 +38,10 @@ def monitor_defects(source: Source) -> Defects:
             continue
         into, out = group.find("cmd_vel_in_topic"), group.find("cmd_vel_out_topic")
         if into is not None and out is not None and into.text.strip("/") == out.text.strip("/"):
-            yield out, f"`cmd_vel_out_topic` is the topic to which the node subscribes, `{into.text}`"
+            if out.text.strip("/") == "cmd_vel":  # the default, which drives the robot
+                yield into, f"`cmd_vel_in_topic` is the topic that the node publishes, `{out.text}`"
+            else:
+                yield out, f"`cmd_vel_out_topic` is the topic to which the node subscribes, `{into.text}`"
         for name, types in _LISTS.items():
             listed = group.find(name)
             for item in listed.items if listed is not None else ():

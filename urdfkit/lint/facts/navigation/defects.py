@@ -14,7 +14,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
-from urdfkit.lint.facts.navigation.filter_inputs import filter_defects
+from urdfkit.lint.facts.navigation.filter_inputs import filter_defects, wrong_covariances
 from urdfkit.lint.facts.navigation.sections import costmaps_of_ros1, sections
 from urdfkit.lint.facts.navigation.tables import (
     CHOICES,
@@ -59,6 +59,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             for group in (root, *(value for _, value in root.entries)):
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
                     yield from filter_defects(group, controllers)
+                    yield from wrong_covariances(group)
         for node in (value for root in documents(source) for _, value in root.entries):
             yield from _values(node, PLANNERS_POSITIVE) if node.find("vx_samples") is not None else ()
         for node in documents(source) if "base_local_planner" in source.text else ():

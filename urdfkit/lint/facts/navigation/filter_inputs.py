@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
@@ -67,3 +68,21 @@ def filter_defects(group: Node, controllers: frozenset[str]) -> Iterator[tuple[N
                     value,
                     f"no controller `{first}` publishes `{value.text}`" + Suggestion(f"{near}/{rest}", value.text),
                 )
+
+
+_COVARIANCES = ("process_noise_covariance", "initial_estimate_covariance")
+_WIDTH = 15
+
+
+def wrong_covariances(group: Node) -> Iterator[tuple[Node, str]]:
+    """Yield the covariances of a filter that are neither a matrix nor a diagonal, at the only odd row.
+
+    Only for ROS 1; the parameters of ROS 2 nodes have a schema.
+    """
+    for key, value in group.entries:
+        count = len(value.items)
+        if key.text in _COVARIANCES and count and count not in (_WIDTH, _WIDTH * _WIDTH):
+            rows = Counter(item.line for item in value.items)
+            odd = [line for line, length in rows.items() if length != _WIDTH]
+            place = next((item for item in value.items if [item.line] == odd), key)
+            yield place, f"`{key.text}` has {count} values; 15 or 225 are needed"

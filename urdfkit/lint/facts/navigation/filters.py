@@ -123,7 +123,10 @@ def filter_defects(model: Model) -> Defects:
         local = {topic.text.strip("/") for one in every if one.is_local for _, topic, _, _ in one.inputs()}
         yield from _of_inputs(each, wheels | local)
     yield from _without_transform(model, every)
-    yield from _without_sideways_motion(model, every)
+    sideways = moves_sideways(model) if every else None
+    for each in every:
+        yield from _unmeasured(each, sideways)
+        yield from _slower_than_transforms(model, each)
 
 
 def _of_pair(pair: list[Filter], has_root: bool) -> Defects:
@@ -201,6 +204,11 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
         other = seen.setdefault((kind, topic.text.strip("/")), name)
         if topic.text and other != name:
             yield each.source, topic, f"`{name}` and `{other}` are the same topic `{topic.text}`"
+        both = [at for at in (0, 1) if values[at] in _TRUE and values[at + _AXES.index("vx")] in _TRUE]
+        if kind == "odom" and topic.text.strip("/") in relative and len(both) > 1:
+            message = f"`{name}_config` fuses x, y and their velocities of the same odometry; fuse the velocities only"
+            yield each.source, config.items[0], message
+            continue
         wrong = [at for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
         fused = [_AXES[at] for at in wrong]
         if fused:
@@ -230,7 +238,13 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
 
 def _wheel_odometry(model: Model) -> set[str]:
     """Return the topics of odometry that drive controllers and plugins compute from the wheels."""
-    found = {f"{one.name}/odom" for source in yamls(model) for one in settings(source) if re.match(_DRIVES, one.kind)}
+    found = {
+        f"{one.name}/{topic}"
+        for source in yamls(model)
+        for one in settings(source)
+        if re.match(_DRIVES, one.kind)
+        for topic in ("odom", "odometry")
+    }
     for text, _, parameter, _ in references(model, ("topic",)):
         if parameter.meaning == "odometry_topic":
             found.add(text.strip().strip("/"))
@@ -255,20 +269,56 @@ def _second_parents(model: Model, every: list[Filter]) -> Defects:
         yield source, node, f"{message}; write `{model.robot.roots()[0].name}`"
 
 
-def _without_sideways_motion(model: Model, every: list[Filter]) -> Defects:
-    """Yield the odometry of a local filter that fuses x, although the base can move sideways, and no input has y."""
-    local = [each for each in every if each.is_local]
-    if not local or not moves_sideways(model):
+def _unmeasured(each: Filter, sideways: bool | None) -> Defects:
+    """Yield the input of a local filter that lacks an axis of which no input has the place or the velocity.
+
+    The filter reports the same at run time (ros_filter.cpp, "unbounded error growth"). The lateral velocity of a base
+    that cannot move sideways is left out, since it is zero.
+
+    Args:
+        each: the filter.
+        sideways: whether the base moves sideways; None for robots without a drive on wheels.
+    """
+    inputs = list(each.inputs())
+    written = [key for key, _ in each.group.entries if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", key.text)]
+    if not each.is_local or sideways is None or not inputs or len(inputs) < len(written):
         return
-    for each in local:
-        inputs = list(each.inputs())
-        if any(values[at] not in _FALSE for _, _, _, values in inputs for at in (1, _AXES.index("vy"))):
+    is_planar = each.text("two_d_mode") not in ("", *_FALSE)
+    axes = ("x", "yaw", *(("y",) if sideways else ()), *(() if is_planar else ("z",)))
+    for axis in axes:
+        places = [_AXES.index(axis), _AXES.index(f"v{axis}")]
+        if any(values[at] not in _FALSE for _, _, _, values in inputs for at in places):
             continue
-        for name, _, config, values in inputs:
-            if values[_AXES.index("vx")] in _TRUE:
-                message = f"`{name}_config` does not fuse vy, but the base can move sideways"
-                yield each.source, config.items[_AXES.index("vy")], message
-                break
+        flag = each.group.find("two_d_mode")
+        if axis == "z":
+            node = flag or inputs[0][2]
+            message = "no input fuses z or vz, so z drifts without bound; set `two_d_mode` to true"
+        else:
+            name, node = next(
+                ((name, config.items[places[1]]) for name, _, config, _ in inputs if name.startswith("odom")),
+                (inputs[0][0], inputs[0][2].items[places[1]]),
+            )
+            why = ", but the base can move sideways" if axis == "y" else f"; {axis} drifts without bound"
+            message = f"`{name}_config` does not fuse v{axis}{why}"
+        yield each.source, node, message
+
+
+def _slower_than_transforms(model: Model, each: Filter) -> Defects:
+    """Yield the rate of a filter whose transforms are older than costmaps and AMCL accept."""
+    from urdfkit.lint.facts.control.yaml_tree import nodes, number_of
+
+    frequency = each.group.find("frequency")
+    rate = number_of(frequency)
+    if frequency is None or not rate or rate <= 0.0 or not each.publishes:
+        return
+    for source in yamls(model):
+        for node in nodes(source) if "transform_tolerance" in source.text else ():
+            limit = number_of(node.find("transform_tolerance"))
+            if limit is not None and 0.0 < limit < 1.0 / rate - 1e-6:
+                file = source.file.rpartition("/")[2]
+                message = f"`frequency` is {rate:g} Hz, but `transform_tolerance` in {file} is {limit:g} s"
+                yield each.source, frequency, f"{message}: transforms are older than that"
+                return
 
 
 def _is_elsewhere(model: Model, link: str) -> bool:

@@ -154,28 +154,11 @@ def _swapped_frames(group: Node) -> Defects:
 
 
 def _between_nodes(groups: dict[str, Node]) -> Defects:
-    """Yield a local costmap in another frame than the behaviors, and a motion model that contradicts the controller."""
+    """Yield a local costmap in another frame than the behaviors."""
     local, behaviors = groups.get("local_costmap"), groups.get("behavior_server")
     frame = local.find("global_frame") if local is not None else None
     expected = behaviors.find("local_frame") if behaviors is not None else None
     if frame is not None and expected is not None and {frame.text, expected.text} == {"map", "odom"}:
+        place = frame if expected.text == "odom" else expected
         message = f"`global_frame` of the local costmap is `{frame.text}`, but `local_frame` of behavior_server is"
-        yield frame, f"{message} `{expected.text}`"
-    amcl = groups.get("amcl")
-    model = amcl.find("robot_model_type") if amcl is not None else None
-    controllers = groups.get("controller_server")
-    sideways = [
-        number_of(value)
-        for node in (walk(controllers) if controllers is not None else ())
-        for key, value in node.entries
-        if key.text in ("max_vel_y", "vy_max")
-    ]
-    if model is not None and sideways and None not in sideways:
-        moves = any(each for each in sideways)
-        if "Omni" in model.text and not moves:
-            yield model, f"`robot_model_type` is `{model.text}`, but no controller drives sideways: `max_vel_y` is 0"
-        elif "Differential" in model.text and moves and all(sideways):
-            yield (
-                model,
-                f"`robot_model_type` is `{model.text}`, but the controller drives sideways: `max_vel_y` is not 0",
-            )
+        yield place, f"{message} `{expected.text}`; write `odom`"

@@ -17,11 +17,11 @@ class ControllerContradictsWheels(RobotRule):
     """The parameters of a drive or steering controller contradict the wheels of the robot.
 
     ## What it does
-    Compares ``wheel_separation``, ``wheel_radius`` (``wheels_radius`` of mecanum controllers), and the ``wheelbase``
-    and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the positions of
-    the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are accepted. With
-    several wheels on each side, a separation of up to twice the distance is accepted, because the wheels slip when the
-    robot turns. Wheels with meshes are not measured. Also reports a left and a right wheel at the same place.
+    Compares ``wheel_separation``, ``wheel_radius``, the radius, distances and corners of mecanum controllers, and the
+    ``wheelbase`` and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the
+    positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
+    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
+    robot turns. Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -65,7 +65,7 @@ class ControllerContradictsWheels(RobotRule):
 
     def _of_steering(self, model: Model) -> Findings:
         """Yield a finding for the wheel radius of a steering or mecanum controller that differs from the robot's."""
-        from urdfkit.lint.facts.control.controller_wheels import mecanum_wheels, steering_wheels
+        from urdfkit.lint.facts.control.controller_wheels import mecanum_defects, mecanum_wheels, steering_wheels
         from urdfkit.lint.facts.gazebo.steered_axles import axles, exchanged, wrong_lengths
 
         for each in axles(model):
@@ -74,6 +74,8 @@ class ControllerContradictsWheels(RobotRule):
                 yield self._at(each.source, node, message, joint, f"write {actual:.6g}")
             for node, message in exchanged(each):
                 yield self._at(each.source, node, message, node.text, "exchange the names")
+        for source, node, message, joint, help in mecanum_defects(model):
+            yield self._at(source, node, message, joint, help)
         for source, group, name, wheels in (*steering_wheels(model), *mecanum_wheels(model)):
             links = [model.robot.link_by_name.get(wheel.joint.child or "") for wheel in wheels]
             shapes = [shape.geometry for link in links if link is not None for shape in link.collisions]

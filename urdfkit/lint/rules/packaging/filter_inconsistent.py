@@ -14,7 +14,9 @@ class FilterInconsistent(RobotRule):
     - two inputs with the same topic, and values that the messages of an input do not contain
     - an absolute position from drifting odometry next to another absolute position
     - a filter in the map frame without an absolute position
-    - odometry of which y is not fused, although the base can move sideways
+    - inputs of which none fuses the place or the velocity along an axis, also y if the base can move sideways
+    - place and velocity of the same odometry, which are fused twice
+    - a rate that is too low for the ``transform_tolerance`` of costmaps
 
     Also reports packages in which no node publishes the transform from the odometry frame, because all filters and
     drive controllers disable it.
