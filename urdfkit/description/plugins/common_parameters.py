@@ -40,16 +40,43 @@ GZ_ODOMETRY = (
 """Topics, frames and rate of the drives that publish odometry."""
 
 
-def gazebo_ros_1(kind: str, library: str, *parameters: Parameter, source: str = "") -> PluginSpec:
-    """Return the table of a plugin of gazebo_ros_pkgs for ROS 1, whose source file has the name of its library."""
-    source = source or f"gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/{library}.cpp"
-    return PluginSpec(kind, "ros1", (library,), (), (*parameters, *GAZEBO_ROS_1), source)
+def gazebo_ros_1(kind: str, libraries: str, *parameters: Parameter, source: str = "") -> PluginSpec:
+    """Return the table of a plugin for ROS 1.
+
+    Args:
+        kind: kind of the plugin in the simulator.
+        libraries: names of its libraries, separated by blanks.
+        parameters: its own parameters.
+        source: its source file; by default the file of gazebo_ros_pkgs with the name of its library.
+    """
+    source = source or f"gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/{libraries}.cpp"
+    return PluginSpec(kind, "ros1", tuple(libraries.split()), (), (*parameters, *GAZEBO_ROS_1), source)
 
 
-def gazebo_ros_2(kind: str, library: str, *parameters: Parameter, source: str = "") -> PluginSpec:
-    """Return the table of a plugin of gazebo_ros_pkgs for ROS 2, whose source file has the name of its library."""
-    source = source or f"gazebo_ros_pkgs ros2, gazebo_plugins/src/{library}.cpp"
-    return PluginSpec(kind, "ros2", (library,), (), (*parameters, *GAZEBO_ROS_2), source)
+def gazebo_ros_2(kind: str, libraries: str, *parameters: Parameter, source: str = "") -> PluginSpec:
+    """Return the table of a plugin for ROS 2; its arguments are those of `gazebo_ros_1`."""
+    source = source or f"gazebo_ros_pkgs ros2, gazebo_plugins/src/{libraries}.cpp"
+    return PluginSpec(kind, "ros2", tuple(libraries.split()), (), (*parameters, *GAZEBO_ROS_2), source)
+
+
+def gz_sensor(kind: str, topic: str, source: str, *, meaning: str = "topic", part: str = "link") -> PluginSpec:
+    """Return the table of a sensor of gz sim, which needs no plugin and is configured in the ``<sensor>``.
+
+    Args:
+        kind: kind of the sensor in the simulator.
+        topic: end of its default topic.
+        source: its source file.
+        meaning: meaning of the parameter that names the topic.
+        part: part of the robot with the ``<sensor>``, ``link`` or ``joint``.
+    """
+    scoped = f"/world/{{world}}/model/{{model}}/{part}/{{{part}}}/sensor/{{sensor}}{topic}"
+    parameters = (
+        Parameter(meaning, "topic", scoped, names="topic"),
+        Parameter("frame", "gz_frame_id", names="frame"),
+        Parameter("old_frame", "ignition_frame_id", names="frame"),
+        Parameter("default_frame", "frame_id", f"{{model}}/{{{part}}}/{{sensor}}", names="frame"),
+    )
+    return PluginSpec(kind, "gz", (), (), parameters, f"gz-sensors main, src/{source}")
 
 
 def gz_system(kind: str, name: str, *parameters: Parameter) -> PluginSpec:

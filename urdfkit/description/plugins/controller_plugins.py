@@ -33,24 +33,31 @@ JOINT_STATE_PUBLISHER_GZ = gz_system(
     Parameter("update_rate", "update_rate", "0", "[Hz]"),
 )
 
-JOINT_CONTROLLER_GZ = gz_system(
-    "joint_controller",
-    "JointController",
-    Parameter("joints", "joint_name", names="joint", repeats=True),
-    Parameter("command_topic", "topic", "/model/{model}/joint/{joint}/cmd_vel", names="topic"),
+_COMMANDS_GZ = (
     Parameter("command_subtopic", "sub_topic", names="topic"),
     Parameter("actuator_number", "actuator_number"),
     Parameter("use_actuator_message", "use_actuator_msg", "false"),
-    Parameter("initial_velocity", "initial_velocity", "0", "[rad/s]"),
-    Parameter("use_force_commands", "use_force_commands", "false"),
-    Parameter("p_gain", "p_gain", "1"),
-    Parameter("i_gain", "i_gain", "0"),
-    Parameter("d_gain", "d_gain", "0"),
+)
+_BOUNDS_GZ = (
     Parameter("i_max", "i_max", "1"),
     Parameter("i_min", "i_min", "-1"),
     Parameter("max_command", "cmd_max", "1000"),
     Parameter("min_command", "cmd_min", "-1000"),
     Parameter("command_offset", "cmd_offset", "0"),
+)
+
+JOINT_CONTROLLER_GZ = gz_system(
+    "joint_controller",
+    "JointController",
+    Parameter("joints", "joint_name", names="joint", repeats=True),
+    Parameter("command_topic", "topic", "/model/{model}/joint/{joint}/cmd_vel", names="topic"),
+    *_COMMANDS_GZ,
+    Parameter("initial_velocity", "initial_velocity", "0", "[rad/s]"),
+    Parameter("use_force_commands", "use_force_commands", "false"),
+    Parameter("p_gain", "p_gain", "1"),
+    Parameter("i_gain", "i_gain", "0"),
+    Parameter("d_gain", "d_gain", "0"),
+    *_BOUNDS_GZ,
 )
 
 JOINT_POSITION_CONTROLLER_GZ = gz_system(
@@ -59,19 +66,13 @@ JOINT_POSITION_CONTROLLER_GZ = gz_system(
     Parameter("joints", "joint_name", names="joint", repeats=True),
     Parameter("joint_index", "joint_index", "0"),
     Parameter("command_topic", "topic", "/model/{model}/joint/{joint}/0/cmd_pos", names="topic"),
-    Parameter("command_subtopic", "sub_topic", names="topic"),
-    Parameter("actuator_number", "actuator_number"),
-    Parameter("use_actuator_message", "use_actuator_msg", "false"),
+    *_COMMANDS_GZ,
     Parameter("use_velocity_commands", "use_velocity_commands", "false"),
     Parameter("initial_position", "initial_position", "0", "[rad]"),
     Parameter("p_gain", "p_gain", "1"),
     Parameter("i_gain", "i_gain", "0.1"),
     Parameter("d_gain", "d_gain", "0.01"),
-    Parameter("i_max", "i_max", "1"),
-    Parameter("i_min", "i_min", "-1"),
-    Parameter("max_command", "cmd_max", "1000"),
-    Parameter("min_command", "cmd_min", "-1000"),
-    Parameter("command_offset", "cmd_offset", "0"),
+    *_BOUNDS_GZ,
 )
 
 GAZEBO_ROS_CONTROL = gazebo_ros_1(

@@ -3,7 +3,7 @@
 Placeholders in defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
-from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, gazebo_ros_2
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2, gz_sensor
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 _INTRINSICS_ROS_1 = (
@@ -23,31 +23,23 @@ _INTRINSICS_ROS_1 = (
     Parameter("p2", "distortionT2", "0"),
     Parameter("auto_distortion", "autoDistortion", "false"),
     Parameter("border_crop", "borderCrop", "true"),
-    *GAZEBO_ROS_1,
 )
 
-CAMERA_ROS_1 = PluginSpec(
-    kind="camera",
-    generation="ros1",
-    filenames=("gazebo_ros_camera",),
-    class_names=(),
-    parameters=(
-        Parameter("image_topic", "imageTopicName", "image_raw", names="topic"),
-        Parameter("info_topic", "cameraInfoTopicName", "camera_info", names="topic"),
-        *_INTRINSICS_ROS_1,
-    ),
+_CAMERA_ROS_1 = (
+    Parameter("image_topic", "imageTopicName", "image_raw", names="topic"),
+    Parameter("info_topic", "cameraInfoTopicName", "camera_info", names="topic"),
+    *_INTRINSICS_ROS_1,
+)
+
+CAMERA_ROS_1 = gazebo_ros_1(
+    "camera",
+    "gazebo_ros_camera",
+    *_CAMERA_ROS_1,
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_camera_utils.cpp",
 )
 """Topics are relative to ``robotNamespace`` and ``cameraName``."""
 
-MULTICAMERA_ROS_1 = PluginSpec(
-    kind="multicamera",
-    generation="ros1",
-    filenames=("gazebo_ros_multicamera",),
-    class_names=(),
-    parameters=CAMERA_ROS_1.parameters,
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_multicamera.cpp",
-)
+MULTICAMERA_ROS_1 = gazebo_ros_1("multicamera", "gazebo_ros_multicamera", *_CAMERA_ROS_1)
 """Like `CAMERA_ROS_1`, with ``/left`` and ``/right`` after ``cameraName``; the baseline applies to the right camera."""
 
 _DEPTH_ROS_1 = (
@@ -59,31 +51,21 @@ _DEPTH_ROS_1 = (
     *_INTRINSICS_ROS_1,
 )
 
-OPENNI_KINECT_ROS_1 = PluginSpec(
-    kind="openni_kinect",
-    generation="ros1",
-    filenames=("gazebo_ros_openni_kinect",),
-    class_names=(),
-    parameters=(
-        Parameter("image_topic", "imageTopicName", "ir/image_raw", names="topic"),
-        Parameter("info_topic", "cameraInfoTopicName", "ir/camera_info", names="topic"),
-        Parameter("max_depth", "pointCloudCutoffMax", "5", "[m]"),
-        *_DEPTH_ROS_1,
-    ),
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_openni_kinect.cpp",
+OPENNI_KINECT_ROS_1 = gazebo_ros_1(
+    "openni_kinect",
+    "gazebo_ros_openni_kinect",
+    Parameter("image_topic", "imageTopicName", "ir/image_raw", names="topic"),
+    Parameter("info_topic", "cameraInfoTopicName", "ir/camera_info", names="topic"),
+    Parameter("max_depth", "pointCloudCutoffMax", "5", "[m]"),
+    *_DEPTH_ROS_1,
 )
 
-DEPTH_CAMERA_ROS_1 = PluginSpec(
-    kind="depth_camera",
-    generation="ros1",
-    filenames=("gazebo_ros_depth_camera",),
-    class_names=(),
-    parameters=(
-        Parameter("image_topic", "imageTopicName", "image_raw", names="topic"),
-        Parameter("info_topic", "cameraInfoTopicName", "camera_info", names="topic"),
-        *_DEPTH_ROS_1,
-    ),
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_depth_camera.cpp",
+DEPTH_CAMERA_ROS_1 = gazebo_ros_1(
+    "depth_camera",
+    "gazebo_ros_depth_camera",
+    Parameter("image_topic", "imageTopicName", "image_raw", names="topic"),
+    Parameter("info_topic", "cameraInfoTopicName", "camera_info", names="topic"),
+    *_DEPTH_ROS_1,
 )
 
 CAMERA_ROS_2 = gazebo_ros_2(
@@ -104,18 +86,9 @@ CAMERA_ROS_2 = gazebo_ros_2(
 """Topics are ``CAMERA/image_raw``, ``CAMERA/camera_info`` and for a sensor of type depth ``CAMERA/depth/…`` and
 ``CAMERA/points``, changed by ``<ros><remapping>`` only."""
 
-_SCOPED = "/world/{world}/model/{model}/link/{link}/sensor/{sensor}"
-
-_GZ = (
-    Parameter("frame", "gz_frame_id", names="frame"),
-    Parameter("old_frame", "ignition_frame_id", names="frame"),
-    Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
-)
-
 
 def _gz(kind: str, topic: str) -> PluginSpec:
-    parameters = (Parameter("image_topic", "topic", f"{_SCOPED}{topic}", names="topic"), *_GZ)
-    return PluginSpec(kind, "gz", (), (), parameters, source="gz-sensors main, src/CameraSensor.cc and related files")
+    return gz_sensor(kind, topic, "CameraSensor.cc and related files", meaning="image_topic")
 
 
 CAMERA_GZ = _gz("gz_camera", "/image")

@@ -1,6 +1,6 @@
 """Contact and force sensors: bumpers, contact sensors, touch sensors and force/torque sensors of joints."""
 
-from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2, gz_sensor
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 BUMPER_ROS_1 = gazebo_ros_1(
@@ -50,20 +50,11 @@ FORCE_TORQUE_ROS_2 = gazebo_ros_2(
 )
 """Publishes on ``wrench``, changed by ``<ros><remapping>`` only; ``body_name`` selects the wrench on that link."""
 
-FORCE_TORQUE_GZ = PluginSpec(
-    kind="gz_force_torque",
-    generation="gz",
-    filenames=(),
-    class_names=(),
-    parameters=(
-        Parameter(
-            "topic", "topic", "/world/{world}/model/{model}/joint/{joint}/sensor/{sensor}/forcetorque", names="topic"
-        ),
-        Parameter("frame", "gz_frame_id", names="frame"),
-        Parameter("old_frame", "ignition_frame_id", names="frame"),
-        Parameter("default_frame", "frame_id", "{model}/{joint}/{sensor}", names="frame"),
-    ),
-    source="gz-sensors main, src/ForceTorqueSensor.cc; gz-sim main, src/systems/force_torque/ForceTorque.cc",
+FORCE_TORQUE_GZ = gz_sensor(
+    "gz_force_torque",
+    "/forcetorque",
+    "ForceTorqueSensor.cc; gz-sim main, src/systems/force_torque/ForceTorque.cc",
+    part="joint",
 )
 """Read from the ``<sensor>`` itself."""
 

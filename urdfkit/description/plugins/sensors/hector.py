@@ -1,7 +1,7 @@
 """Sensors of hector_gazebo_plugins and hector_quadrotor_gazebo_plugins, for ROS 1, with drift and noise."""
 
-from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1
-from urdfkit.description.plugins.spec import Parameter, PluginSpec
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1
+from urdfkit.description.plugins.spec import Parameter
 
 _REPOSITORY = "hector_gazebo noetic-devel, hector_gazebo_plugins/src"
 
@@ -25,101 +25,79 @@ def _common(topic: str, rate: str) -> tuple[Parameter, ...]:
         Parameter("topic", "topicName", topic, names="topic"),
         Parameter("frame", "frameId", names="frame"),
         Parameter("update_rate", "updateRate", rate, "[Hz]"),
-        *GAZEBO_ROS_1,
     )
 
 
 _BODY = Parameter("body", "bodyName", names="link")
 
-HECTOR_IMU = PluginSpec(
-    kind="hector_imu",
-    generation="ros1",
-    filenames=("hector_gazebo_ros_imu",),
-    class_names=(),
-    parameters=(
-        *_common("imu", "0"),
-        _BODY,
-        Parameter("service", "serviceName"),
-        *_errors("accel_", "accel", "[m/s²]"),
-        *_errors("rate_", "rate", "[rad/s]"),
-        *_errors("yaw_", "yaw", "[rad]"),
-        *_errors("heading_", "heading", "[rad]"),
-        Parameter("gaussian_noise", "gaussianNoise"),
-        Parameter("rpy_offset", "rpyOffset", unit="[rad]"),
-        Parameter("xyz_offset", "xyzOffset", unit="[m]"),
-    ),
+HECTOR_IMU = gazebo_ros_1(
+    "hector_imu",
+    "hector_gazebo_ros_imu",
+    *_common("imu", "0"),
+    _BODY,
+    Parameter("service", "serviceName"),
+    *_errors("accel_", "accel", "[m/s²]"),
+    *_errors("rate_", "rate", "[rad/s]"),
+    *_errors("yaw_", "yaw", "[rad]"),
+    *_errors("heading_", "heading", "[rad]"),
+    Parameter("gaussian_noise", "gaussianNoise"),
+    Parameter("rpy_offset", "rpyOffset", unit="[rad]"),
+    Parameter("xyz_offset", "xyzOffset", unit="[m]"),
     source=f"{_REPOSITORY}/gazebo_ros_imu.cpp",
 )
 
-HECTOR_GPS = PluginSpec(
-    kind="hector_gps",
-    generation="ros1",
-    filenames=("hector_gazebo_ros_gps",),
-    class_names=(),
-    parameters=(
-        *_common("fix", "4.0"),
-        _BODY,
-        Parameter("velocity_topic", "velocityTopicName", "fix_velocity", names="topic"),
-        Parameter("latitude", "referenceLatitude", unit="[°]"),
-        Parameter("longitude", "referenceLongitude", unit="[°]"),
-        Parameter("altitude", "referenceAltitude", unit="[m]"),
-        Parameter("heading", "referenceHeading", unit="[°]"),
-        Parameter("status", "status", "0"),
-        Parameter("service", "service", "1"),
-        *_errors(unit="[m]"),
-        *_errors("velocity_", "velocity", "[m/s]"),
-    ),
+HECTOR_GPS = gazebo_ros_1(
+    "hector_gps",
+    "hector_gazebo_ros_gps",
+    *_common("fix", "4.0"),
+    _BODY,
+    Parameter("velocity_topic", "velocityTopicName", "fix_velocity", names="topic"),
+    Parameter("latitude", "referenceLatitude", unit="[°]"),
+    Parameter("longitude", "referenceLongitude", unit="[°]"),
+    Parameter("altitude", "referenceAltitude", unit="[m]"),
+    Parameter("heading", "referenceHeading", unit="[°]"),
+    Parameter("status", "status", "0"),
+    Parameter("service", "service", "1"),
+    *_errors(unit="[m]"),
+    *_errors("velocity_", "velocity", "[m/s]"),
     source=f"{_REPOSITORY}/gazebo_ros_gps.cpp",
 )
 """The defaults of the reference values are the world's ``<spherical_coordinates>``."""
 
-HECTOR_MAGNETIC = PluginSpec(
-    kind="hector_magnetic",
-    generation="ros1",
-    filenames=("hector_gazebo_ros_magnetic",),
-    class_names=(),
-    parameters=(
-        *_common("magnetic", "0"),
-        _BODY,
-        Parameter("magnitude", "magnitude", "1.0"),
-        Parameter("heading", "referenceHeading", unit="[°]"),
-        Parameter("declination", "declination", "0", "[°]"),
-        Parameter("inclination", "inclination", "60", "[°]"),
-        Parameter("magnetic_field_messages", "useMagneticFieldMsgs", "false"),
-        *_errors(),
-    ),
+HECTOR_MAGNETIC = gazebo_ros_1(
+    "hector_magnetic",
+    "hector_gazebo_ros_magnetic",
+    *_common("magnetic", "0"),
+    _BODY,
+    Parameter("magnitude", "magnitude", "1.0"),
+    Parameter("heading", "referenceHeading", unit="[°]"),
+    Parameter("declination", "declination", "0", "[°]"),
+    Parameter("inclination", "inclination", "60", "[°]"),
+    Parameter("magnetic_field_messages", "useMagneticFieldMsgs", "false"),
+    *_errors(),
     source=f"{_REPOSITORY}/gazebo_ros_magnetic.cpp",
 )
 
-HECTOR_SONAR = PluginSpec(
-    kind="sonar",
-    generation="ros1",
-    filenames=("hector_gazebo_ros_sonar", "gazebo_ros_sonar"),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topicName", "sonar", names="topic"),
-        Parameter("frame", "frameId", "/sonar_link", names="frame"),
-        Parameter("update_rate", "updateRate", "10.0", "[Hz]"),
-        *_errors(unit="[m]"),
-        *GAZEBO_ROS_1,
-    ),
+HECTOR_SONAR = gazebo_ros_1(
+    "sonar",
+    "hector_gazebo_ros_sonar gazebo_ros_sonar",
+    Parameter("topic", "topicName", "sonar", names="topic"),
+    Parameter("frame", "frameId", "/sonar_link", names="frame"),
+    Parameter("update_rate", "updateRate", "10.0", "[Hz]"),
+    *_errors(unit="[m]"),
     source=f"{_REPOSITORY}/gazebo_ros_sonar.cpp",
 )
 """A plugin of a ray sensor."""
 
-HECTOR_BARO = PluginSpec(
-    kind="hector_baro",
-    generation="ros1",
-    filenames=("hector_gazebo_ros_baro",),
-    class_names=(),
-    parameters=(
-        *_common("pressure_height", "0"),
-        _BODY,
-        Parameter("altimeter_topic", "altimeterTopicName", "altimeter", names="topic"),
-        Parameter("elevation", "elevation", "0", "[m]"),
-        Parameter("qnh", "qnh", "1013.25", "[hPa]"),
-        *_errors(unit="[m]"),
-    ),
+HECTOR_BARO = gazebo_ros_1(
+    "hector_baro",
+    "hector_gazebo_ros_baro",
+    *_common("pressure_height", "0"),
+    _BODY,
+    Parameter("altimeter_topic", "altimeterTopicName", "altimeter", names="topic"),
+    Parameter("elevation", "elevation", "0", "[m]"),
+    Parameter("qnh", "qnh", "1013.25", "[hPa]"),
+    *_errors(unit="[m]"),
     source="hector_quadrotor kinetic-devel, hector_quadrotor_gazebo_plugins/src/gazebo_ros_baro.cpp",
 )
 

@@ -1,7 +1,7 @@
 """Motion and position sensors: IMU, ground-truth pose (p3d), GPS and other sensors of gz sim."""
 
-from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2
-from urdfkit.description.plugins.spec import Parameter, PluginSpec
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2, gz_sensor
+from urdfkit.description.plugins.spec import Parameter
 
 IMU_SENSOR_ROS_1 = gazebo_ros_1(
     "imu_sensor",
@@ -39,19 +39,7 @@ IMU_BODY_ROS_1 = gazebo_ros_1(
 )
 """A plugin of the model, not of a sensor; its accelerations exclude gravity."""
 
-IMU_GZ = PluginSpec(
-    kind="gz_imu",
-    generation="gz",
-    filenames=(),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topic", "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/imu", names="topic"),
-        Parameter("frame", "gz_frame_id", names="frame"),
-        Parameter("old_frame", "ignition_frame_id", names="frame"),
-        Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
-    ),
-    source="gz-sensors main, src/ImuSensor.cc",
-)
+IMU_GZ = gz_sensor("gz_imu", "/imu", "ImuSensor.cc")
 """Read from the ``<sensor>`` itself. The orientation is relative to the initial orientation of the sensor."""
 
 P3D_ROS_1 = gazebo_ros_1(
@@ -85,30 +73,11 @@ GPS_ROS_2 = gazebo_ros_2(
 )
 """Publishes on ``~/out``."""
 
-
-def _bare(kind: str, topic: str, source: str) -> PluginSpec:
-    """Return the table of a sensor of gz sim, which needs no plugin and is configured in the ``<sensor>``."""
-    scoped = "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/"
-    return PluginSpec(
-        kind=kind,
-        generation="gz",
-        filenames=(),
-        class_names=(),
-        parameters=(
-            Parameter("topic", "topic", scoped + topic, names="topic"),
-            Parameter("frame", "gz_frame_id", names="frame"),
-            Parameter("old_frame", "ignition_frame_id", names="frame"),
-            Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
-        ),
-        source=f"gz-sensors main, src/{source}",
-    )
-
-
-NAVSAT_GZ = _bare("gz_navsat", "navsat", "NavSatSensor.cc")
-MAGNETOMETER_GZ = _bare("gz_magnetometer", "magnetometer", "MagnetometerSensor.cc")
-ALTIMETER_GZ = _bare("gz_altimeter", "altimeter", "AltimeterSensor.cc")
-AIR_PRESSURE_GZ = _bare("gz_air_pressure", "air_pressure", "AirPressureSensor.cc")
-LOGICAL_CAMERA_GZ = _bare("gz_logical_camera", "logical_camera", "LogicalCameraSensor.cc")
+NAVSAT_GZ = gz_sensor("gz_navsat", "/navsat", "NavSatSensor.cc")
+MAGNETOMETER_GZ = gz_sensor("gz_magnetometer", "/magnetometer", "MagnetometerSensor.cc")
+ALTIMETER_GZ = gz_sensor("gz_altimeter", "/altimeter", "AltimeterSensor.cc")
+AIR_PRESSURE_GZ = gz_sensor("gz_air_pressure", "/air_pressure", "AirPressureSensor.cc")
+LOGICAL_CAMERA_GZ = gz_sensor("gz_logical_camera", "/logical_camera", "LogicalCameraSensor.cc")
 
 MOTION = (IMU_SENSOR_ROS_1, IMU_SENSOR_ROS_2, IMU_BODY_ROS_1, P3D_ROS_1, P3D_ROS_2, GPS_ROS_2)
 """All plugins of motion and position sensors."""

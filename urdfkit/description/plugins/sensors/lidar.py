@@ -4,19 +4,14 @@ The scan (angles, samples, ranges, noise) is configured in the ``<sensor>`` that
 defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
-from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2, gazebo_ros_1, gazebo_ros_2
-from urdfkit.description.plugins.spec import Parameter, PluginSpec
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2, gz_sensor
+from urdfkit.description.plugins.spec import Parameter
 
-LASER_ROS_1 = PluginSpec(
-    kind="laser",
-    generation="ros1",
-    filenames=("gazebo_ros_laser", "gazebo_ros_gpu_laser"),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topicName", "/world", names="topic"),
-        Parameter("frame", "frameName", "/world", names="frame"),
-        *GAZEBO_ROS_1,
-    ),
+LASER_ROS_1 = gazebo_ros_1(
+    "laser",
+    "gazebo_ros_laser gazebo_ros_gpu_laser",
+    Parameter("topic", "topicName", "/world", names="topic"),
+    Parameter("frame", "frameName", "/world", names="frame"),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_laser.cpp and gazebo_ros_gpu_laser.cpp",
 )
 
@@ -54,57 +49,35 @@ RAY_SENSOR_ROS_2 = gazebo_ros_2(
 )
 """Publishes on ``~/out``, changed by ``<ros><remapping>`` only."""
 
-VELODYNE = ("gazebo_ros_velodyne_laser", "gazebo_ros_velodyne_gpu_laser")
+VELODYNE = "gazebo_ros_velodyne_laser gazebo_ros_velodyne_gpu_laser"
 
-VELODYNE_ROS_1 = PluginSpec(
-    kind="velodyne",
-    generation="ros1",
-    filenames=VELODYNE,
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topicName", "/points", names="topic"),
-        Parameter("frame", "frameName", "/world", names="frame"),
-        Parameter("min_range", "min_range", "0", "[m]"),
-        Parameter("max_range", "max_range", unit="[m]"),
-        Parameter("min_intensity", "min_intensity"),
-        Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
-        Parameter("organize_cloud", "organize_cloud", "false"),
-        *GAZEBO_ROS_1,
-    ),
+VELODYNE_ROS_1 = gazebo_ros_1(
+    "velodyne",
+    VELODYNE,
+    Parameter("topic", "topicName", "/points", names="topic"),
+    Parameter("frame", "frameName", "/world", names="frame"),
+    Parameter("min_range", "min_range", "0", "[m]"),
+    Parameter("max_range", "max_range", unit="[m]"),
+    Parameter("min_intensity", "min_intensity"),
+    Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
+    Parameter("organize_cloud", "organize_cloud", "false"),
     source="velodyne_simulator master, velodyne_gazebo_plugins/src/GazeboRosVelodyneLaser.cpp",
 )
 
-VELODYNE_ROS_2 = PluginSpec(
-    kind="velodyne",
-    generation="ros2",
-    filenames=VELODYNE,
-    class_names=(),
-    parameters=(
-        Parameter("frame", "frame_name", "/world", names="frame"),
-        Parameter("min_range", "min_range", "0", "[m]"),
-        Parameter("max_range", "max_range", unit="[m]"),
-        Parameter("min_intensity", "min_intensity"),
-        Parameter("gaussian_noise", "gaussian_noise", "0", "[m]"),
-        Parameter("organize_cloud", "organize_cloud", "false"),
-        *GAZEBO_ROS_2,
-    ),
+VELODYNE_ROS_2 = gazebo_ros_2(
+    "velodyne",
+    VELODYNE,
+    Parameter("frame", "frame_name", "/world", names="frame"),
+    Parameter("min_range", "min_range", "0", "[m]"),
+    Parameter("max_range", "max_range", unit="[m]"),
+    Parameter("min_intensity", "min_intensity"),
+    Parameter("gaussian_noise", "gaussian_noise", "0", "[m]"),
+    Parameter("organize_cloud", "organize_cloud", "false"),
     source="velodyne_simulator foxy-devel, velodyne_gazebo_plugins/src/GazeboRosVelodyneLaser.cpp",
 )
 """Publishes on ``~/out``."""
 
-LIDAR_GZ = PluginSpec(
-    kind="gpu_lidar",
-    generation="gz",
-    filenames=(),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topic", "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/scan", names="topic"),
-        Parameter("frame", "gz_frame_id", names="frame"),
-        Parameter("old_frame", "ignition_frame_id", names="frame"),
-        Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
-    ),
-    source="gz-sensors main, src/Sensor.cc, src/Lidar.cc and src/GpuLidarSensor.cc",
-)
+LIDAR_GZ = gz_sensor("gpu_lidar", "/scan", "Sensor.cc, src/Lidar.cc and src/GpuLidarSensor.cc")
 """Read from the ``<sensor>`` itself. The point cloud is published on the topic with the suffix ``/points``."""
 
 LIDARS = (LASER_ROS_1, BLOCK_LASER_ROS_1, RANGE_ROS_1, RAY_SENSOR_ROS_2, VELODYNE_ROS_1, VELODYNE_ROS_2)
