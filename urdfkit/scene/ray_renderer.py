@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from urdfkit.linear_algebra import Array
 from urdfkit.scene.camera_model import Lens, spread
 from urdfkit.scene.lights import Lighting
-from urdfkit.scene.rays.kernels import outliner, tracer
+from urdfkit.scene.rays.kernels import kernel
 from urdfkit.scene.rays.ray_casting import SCRATCH
 from urdfkit.scene.rays.ray_packet import FAR, WIDTH
 from urdfkit.scene.rays.ray_scene import RayTable
@@ -99,7 +99,7 @@ class RayRenderer:
             samples: rays per edge pixel.
         """
         found = np.empty(lens.width * lens.height, dtype=np.int64)
-        ends = found[: outliner()(rgb, ALIKE, found)]
+        ends = found[: kernel("outline")(rgb, ALIKE, found)]
         flat = rgb.reshape(-1, 3)
         for part in np.array_split(ends, len(ends) * samples // MOST_RAYS + 1):
             row, column = np.divmod(part, lens.width)
@@ -115,12 +115,12 @@ class RayRenderer:
         placed, count = np.asarray(frame, dtype=float), len(directions)
         rgb, depths = np.empty((count, 3), dtype=np.uint8), np.empty(count)
         hits = np.empty(count, dtype=np.int64)
-        kernel = tracer()
+        compiled = kernel("trace")
         camera = np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [1.0 / lens.focal_length]])
 
         def trace(first: int) -> None:
             part = slice(first, first + size)
-            kernel(
+            compiled(
                 self.table.kernel_scene, self._occluders, self.paint, self._lights, self._air, camera, directions[part],
                 order[part], float(near), float(min(far, FAR)), np.empty(SCRATCH), np.empty(BUFFER_SIZE), rgb, depths,
                 hits,

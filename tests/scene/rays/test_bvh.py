@@ -8,7 +8,7 @@ from tests.scene.rays.conftest import random_geometry, random_poses, rotations, 
 from tests.scene.rays.truth import nearest
 from urdfkit.scene.rays import RayTable
 from urdfkit.scene.rays.bvh import SCRATCH
-from urdfkit.scene.rays.kernels import builder
+from urdfkit.scene.rays.kernels import kernel
 
 KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone")
 
@@ -97,7 +97,7 @@ def build(boxes, leaf=2):
     count = len(boxes)
     order, bounds = np.empty(count, np.int64), np.empty((2 * count - 1, 6))
     links = np.empty((2 * count - 1, 2), np.int64)
-    nodes = builder()(np.ascontiguousarray(boxes, dtype=float), order, bounds, links, leaf, np.empty(SCRATCH))
+    nodes = kernel("build")(np.ascontiguousarray(boxes, dtype=float), order, bounds, links, leaf, np.empty(SCRATCH))
     return order, bounds[:nodes], links[:nodes]
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from urdfkit.atomic import write_bytes
 from urdfkit.errors import ResourceError
 from urdfkit.meshes.triangle_mesh import TriMesh
-from urdfkit.scene.rays.kernels import builder
+from urdfkit.scene.rays.kernels import kernel
 
 LEAF = 4
 """Triangles per leaf: a packet tests them faster than two more boxes."""
@@ -63,7 +63,7 @@ def _build(boxes: NDArray[np.float64]) -> Parts:
     order = np.empty(count, dtype=np.int64)
     bounds = np.empty((2 * count - 1, 6))
     links = np.empty((2 * count - 1, 2), dtype=np.int64)
-    nodes = builder()(np.ascontiguousarray(boxes), order, bounds, links, LEAF, np.empty(SCRATCH))
+    nodes = kernel("build")(np.ascontiguousarray(boxes), order, bounds, links, LEAF, np.empty(SCRATCH))
     return bounds[:nodes].copy(), links[:nodes].copy(), order
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -15,151 +17,58 @@ Progress = Callable[[int], None]
 """Called with the number of compiled functions, starting with 0; not called if everything is cached."""
 
 
-@lru_cache(maxsize=1)
-def caster() -> Callable[..., Any]:
-    """Return the compiled `ray_casting.cast`."""
-    from numba import float64 as f
-    from numba import int64 as i
+_SCENE = "(d1 q1 q1 q1 d2 q1 d2 q1 d1)"
+_PAINT = "(d2 q1 d2 f2 q2 B1)"
 
-    from urdfkit.scene.rays.ray_casting import cast
+KERNELS: dict[str, tuple[str, str]] = {
+    "build": ("bvh", "d2 q1 d2 q2 q d1"),
+    "widen": ("wide_bvh", "d2 q2 q3 q1"),
+    "fill": ("wide_bvh", "d2 q3 q d2"),
+    "place": ("shape_placement", "d2 d2 d1 q1 q1 d2 d1 d2 q1 d2 q2 q3 q1 d2 d1 d1"),
+    "cast": ("ray_casting", f"{_SCENE} d1 d2 d2 d d d1 d1 q1 q1 d2"),
+    "trace": ("shading.camera_picture", f"{_SCENE} {_SCENE} {_PAINT} d2 d2 d1 d2 q1 d d d1 d1 B2 d1 q1"),
+    "outline": ("shading.edge_pixels", "B3 q q1"),
+}
+"""Name of a kernel → its module in this package, and the types of its arguments.
 
-    return load_compiled(
-        cast, (scene_type(), f[::1], f[:, ::1], f[:, ::1], f, f, f[::1], f[::1], i[::1], i[::1], f[:, ::1])
-    )
+A type is a letter of `struct`: ``d`` and ``f`` for floats of 64 and 32 bits, ``q`` and ``B`` for integers of 64 and
+8 bits. A digit after it is the number of dimensions of an array, in C order. Parentheses enclose a tuple.
+"""
 
 
-def scene_type() -> Any:
-    """Return the numba type of a scene."""
-    from numba import float64 as f
-    from numba import int64 as i
+@lru_cache
+def kernel(name: str) -> Callable[..., Any]:
+    """Return a compiled kernel of `KERNELS`."""
     from numba import types
 
-    return types.Tuple((f[::1], i[::1], i[::1], i[::1], f[:, ::1], i[::1], f[:, ::1], i[::1], f[::1]))
+    letters = {"d": types.float64, "f": types.float32, "q": types.int64, "B": types.uint8}
+
+    def read(words: Iterator[str]) -> Iterator[Any]:
+        for word in words:
+            if word == ")":
+                return
+            if word == "(":
+                yield types.Tuple(tuple(read(words)))
+            else:
+                yield types.Array(letters[word[0]], int(word[1]), "C") if word[1:] else letters[word]
+
+    words = iter(re.findall(r"[()]|\w+", KERNELS[name][1]))
+    return load_compiled(_python(name), tuple(read(words)))
 
 
-@lru_cache(maxsize=1)
-def tracer() -> Callable[..., Any]:
-    """Return the compiled `camera_picture.trace`."""
-    from numba import float32, types, uint8
-    from numba import float64 as f
-    from numba import int64 as i
-
-    from urdfkit.scene.rays.shading.camera_picture import trace
-
-    paint = types.Tuple((f[:, ::1], i[::1], f[:, ::1], float32[:, ::1], i[:, ::1], uint8[::1]))
-    return load_compiled(
-        trace,
-        (
-            scene_type(),
-            scene_type(),
-            paint,
-            f[:, ::1],
-            f[:, ::1],
-            f[::1],
-            f[:, ::1],
-            i[::1],
-            f,
-            f,
-            f[::1],
-            f[::1],
-            uint8[:, ::1],
-            f[::1],
-            i[::1],
-        ),
-    )
-
-
-@lru_cache(maxsize=1)
-def outliner() -> Callable[..., Any]:
-    """Return the compiled `edge_pixels.outline`."""
-    from numba import int64, uint8
-
-    from urdfkit.scene.rays.shading.edge_pixels import outline
-
-    return load_compiled(outline, (uint8[:, :, ::1], int64, int64[::1]))
-
-
-@lru_cache(maxsize=1)
-def placer() -> Callable[..., Any]:
-    """Return the compiled `shape_placement.place`."""
-    from numba import float64 as f
-    from numba import int64 as i
-
-    from urdfkit.scene.rays.shape_placement import place
-
-    return load_compiled(
-        place,
-        (
-            f[:, ::1],
-            f[:, ::1],
-            f[::1],
-            i[::1],
-            i[::1],
-            f[:, ::1],
-            f[::1],
-            f[:, ::1],
-            i[::1],
-            f[:, ::1],
-            i[:, ::1],
-            i[:, :, ::1],
-            i[::1],
-            f[:, ::1],
-            f[::1],
-            f[::1],
-        ),
-    )
-
-
-@lru_cache(maxsize=1)
-def builder() -> Callable[..., Any]:
-    """Return the compiled `bvh.build`."""
-    from numba import float64 as f
-    from numba import int64 as i
-
-    from urdfkit.scene.rays.bvh import build
-
-    return load_compiled(build, (f[:, ::1], i[::1], f[:, ::1], i[:, ::1], i, f[::1]))
-
-
-@lru_cache(maxsize=1)
-def widener() -> Callable[..., Any]:
-    """Return the compiled `wide_bvh.widen`."""
-    from numba import float64 as f
-    from numba import int64 as i
-
-    from urdfkit.scene.rays.wide_bvh import widen
-
-    return load_compiled(widen, (f[:, ::1], i[:, ::1], i[:, :, ::1], i[::1]))
-
-
-@lru_cache(maxsize=1)
-def filler() -> Callable[..., Any]:
-    """Return the compiled `wide_bvh.fill`."""
-    from numba import float64 as f
-    from numba import int64 as i
-
-    from urdfkit.scene.rays.wide_bvh import fill
-
-    return load_compiled(fill, (f[:, ::1], i[:, :, ::1], i, f[:, ::1]))
+def _python(name: str) -> Callable[..., Any]:
+    """Return a kernel in Python."""
+    found: Callable[..., Any] = getattr(import_module(f"urdfkit.scene.rays.{KERNELS[name][0]}"), name)
+    return found
 
 
 def cached() -> bool:
     """Return whether numba's cache contains all kernels."""
     from numba.core.caching import FunctionCache
 
-    from urdfkit.scene.rays.bvh import build
-    from urdfkit.scene.rays.ray_casting import cast
-    from urdfkit.scene.rays.shading.camera_picture import trace
-    from urdfkit.scene.rays.shading.edge_pixels import outline
-    from urdfkit.scene.rays.shape_placement import place
-    from urdfkit.scene.rays.wide_bvh import fill, widen
-
     index = f"_{sources_digest()[:16]}-*.nbi"  # named by `compile_or_load`
     with suppress(RuntimeError):  # numba has no folder for its cache
-        return all(
-            any(Path(FunctionCache(function).cache_path).glob(f"*.{function.__name__}_*{index}"))
-            for function in (build, cast, fill, outline, place, trace, widen)
-        )
+        return all(any(Path(FunctionCache(_python(name)).cache_path).glob(f"*.{name}_*{index}")) for name in KERNELS)
     return False
 
 
@@ -188,6 +97,6 @@ def warmup(progress: Progress | None = None) -> bool:
             pass
 
     with excluded(), event.install_listener("numba:compile", RayKernelEvents()):
-        for kernel in (builder, widener, filler, placer, caster, tracer, outliner):
-            kernel()
+        for name in KERNELS:
+            kernel(name)
     return bool(compiled)

@@ -16,7 +16,7 @@ from urdfkit.scene.pose_matrices import upright
 from urdfkit.scene.rays import primitives
 from urdfkit.scene.rays.bvh import SCRATCH as TREE_SCRATCH
 from urdfkit.scene.rays.bvh_cache import mesh_tree
-from urdfkit.scene.rays.kernels import caster, filler, placer, widener
+from urdfkit.scene.rays.kernels import kernel
 from urdfkit.scene.rays.ray_casting import SCRATCH
 from urdfkit.scene.rays.ray_packet import CHILDREN, FAR
 from urdfkit.scene.rays.triangles import CORNERS
@@ -155,7 +155,7 @@ class RayTable:
             poses: x y z [m] and quaternion x y z w of every body of the scene, in its order; shape (bodies, 7).
         """
         rows = np.ascontiguousarray(poses, dtype=float).reshape(self._poses.shape)
-        placer()(
+        kernel("place")(
             rows, self._poses, self._local, self.bodies, self._kinds, self._mesh_boxes, self._world, self._boxes,
             self._order, self._bounds, self._links, self._wide, self._origins, self._children, self._health,
             self._scratch,
@@ -191,7 +191,7 @@ class RayTable:
         placed = np.eye(4) if frame is None else np.asarray(frame, dtype=float)
         distances, facing = np.empty(count), np.empty((count if normals else 0, 3))
         hits, parts = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
-        caster()(
+        kernel("cast")(
             self.kernel_scene, np.concatenate([placed[:3, :3].ravel(), placed[:3, 3]]), origins, directions,
             float(near), float(min(far, FAR)), np.empty(SCRATCH), distances, hits, parts, facing,
         )  # fmt: skip
@@ -209,9 +209,9 @@ def widened(bounds: Array, links: Numbers) -> tuple[Array, Numbers]:
     """
     most = len(links) // 2 + 1
     children, origins = np.empty((most, CHILDREN, 3), dtype=np.int64), np.empty(most, dtype=np.int64)
-    nodes = widener()(bounds, links, children, origins)
+    nodes = kernel("widen")(bounds, links, children, origins)
     boxes = np.empty((nodes, BOXES))
-    filler()(bounds, children, nodes, boxes)
+    kernel("fill")(bounds, children, nodes, boxes)
     return boxes, children[:nodes].copy()
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from urdfkit.scene.rays.kernels import outliner
+from urdfkit.scene.rays.kernels import kernel
 
 
 def found(picture, alike=8):
     numbers = np.empty(picture.shape[0] * picture.shape[1], dtype=np.int64)
     mask = np.zeros(picture.shape[:2], dtype=bool)
-    mask.ravel()[numbers[: outliner()(picture, alike, numbers)]] = True
+    mask.ravel()[numbers[: kernel("outline")(picture, alike, numbers)]] = True
     return mask
 
 
