@@ -19,6 +19,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.xacro.memory import Memory
 
+_PASSES = 3
+"""Expansions of one file by `expand_leniently`, each with the late definitions that the one before found."""
+
 
 def expand(
     path: str | Path,
@@ -65,7 +68,8 @@ def expand_leniently(
     """Expand a file and continue after errors, which are in `Expanded.faults`.
 
     What uses an undefined property keeps its expression; a call of an undefined macro and the include of a missing file
-    are dropped; a property or macro that is defined after its use is used nevertheless.
+    are dropped. If a property or macro is defined after its use, the file is expanded again with the definitions of the
+    first pass.
 
     Args:
         path: a xacro or URDF file.
@@ -83,11 +87,25 @@ def expand_leniently(
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
         return _read_plain_leniently(path, packages, texts, memory)
-    from urdfkit.description.xacro.recovery.expansion import expand_with_recovery
+    from urdfkit.description.xacro.evaluation.reuse import MixedContent
+    from urdfkit.description.xacro.recovery.recovering_calls import LateDefinitions
+    from urdfkit.description.xacro.recovery.recovering_evaluator import RecoveringEvaluator
 
-    return expand_with_recovery(
-        str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts, memory=memory
-    )
+    def expanded(memory: Memory | None) -> Expanded:
+        late = LateDefinitions()
+        for number in range(_PASSES):
+            evaluator = RecoveringEvaluator(
+                str(path), arguments or {}, packages, late, add_prefixes=add_prefixes, texts=texts, memory=memory
+            )
+            evaluator.run_all()
+            if number == _PASSES - 1 or not evaluator.learn():
+                break
+        return evaluator.outcome()
+
+    try:
+        return expanded(memory)
+    except MixedContent:
+        return expanded(None)
 
 
 def is_xacro(path: str | Path) -> bool:

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xacro.memory import Memory
-from urdfkit.description.xacro.recovery.expansion import expand_with_recovery
 from urdfkit.errors import UrdfkitError
 
 ENTRY = """<?xml version="1.0"?>
@@ -172,7 +172,7 @@ def facts(expanded: Any) -> Any:
 
 def outcome(entry: str, packages: Packages, texts: dict[str, str], memory: Memory | None) -> Any:
     try:
-        expanded = expand_with_recovery(entry, {}, packages, add_prefixes=True, texts=texts, memory=memory)
+        expanded = expand_leniently(entry, packages=packages, texts=texts, memory=memory)
     except UrdfkitError as error:
         return type(error), str(error)
     return facts(expanded)

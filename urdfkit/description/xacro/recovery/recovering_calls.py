@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure
@@ -9,7 +11,6 @@ from urdfkit.description.xacro.evaluation.macros import Macro, found_macro
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.faults import Unprefixed
 from urdfkit.description.xacro.recovery.call_repairs import fit, is_call_of, near_macros
-from urdfkit.description.xacro.recovery.late_definitions import LateDefinitions
 from urdfkit.description.xacro.recovery.missing_prefix import looks_like_a_call, rename
 from urdfkit.description.xacro.recovery.unknown_values import Recorded
 from urdfkit.description.xml.known_tags import TAGS
@@ -19,6 +20,19 @@ from urdfkit.errors import XmlError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.xacro.evaluation.evaluator import Steps
+
+
+class LateDefinitions:
+    """What earlier passes found defined after its use.
+
+    Attributes:
+        properties: name → value and place of the definition.
+        macros: name → macro.
+    """
+
+    def __init__(self) -> None:
+        self.properties: dict[str, tuple[Any, Position | None]] = {}
+        self.macros: dict[str, Macro] = {}
 
 
 class RecoveringCalls(Evaluator):

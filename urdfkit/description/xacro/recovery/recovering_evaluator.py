@@ -20,10 +20,9 @@ from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault, Unprefixed
 from urdfkit.description.xacro.memory import Memory
-from urdfkit.description.xacro.recovery.late_definitions import LateDefinitions
 from urdfkit.description.xacro.recovery.missing_prefix import add_missing_prefixes
 from urdfkit.description.xacro.recovery.misspelt_directives import repair_spelling
-from urdfkit.description.xacro.recovery.recovering_calls import RecoveringCalls, mark_late
+from urdfkit.description.xacro.recovery.recovering_calls import LateDefinitions, RecoveringCalls, mark_late
 from urdfkit.description.xacro.recovery.unknown_values import Arguments, Recorded, Unknown
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position, Source
