@@ -543,3 +543,106 @@ def test_a_joint_with_a_first_position_exists_if_the_others_are_of_this_robot(
     write(folder / "launch" / "spawn.launch", POSITIONS.format(joints))
     rows = [row for row in found(folder, "K968") if "joint" in row[2]]
     assert rows == [("spawn.launch", 3, "unknown joint `shoulder_pan`")] * is_found
+
+
+LAUNCH = """from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, EmitEvent, GroupAction, IncludeLaunchDescription, OpaqueFunction
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+from launch_ros.event_handlers import OnStateTransition
+
+
+def more(context):
+    {more}
+
+
+def generate_launch_description():
+    arguments = [DeclareLaunchArgument("sim", default_value="false"), DeclareLaunchArgument("slam")]
+    settings = {{"use_sim_time": LaunchConfiguration("sim")}}
+    common = [settings]
+    left, right = Node(package="joy", executable="joy_node"), Node(package="tf2_ros", executable="buffer_server")
+    handler = OnStateTransition(start_state="configuring", goal_state="{goal}")
+    driver = Node(package="urg_node", executable="urg_node_driver", condition={driver}(LaunchConfiguration("sim")))
+    localization = GroupAction(condition={amcl}(LaunchConfiguration("slam")), actions=[
+        Node(package="nav2_amcl", executable="amcl", name="amcl"),
+    ])
+    mapping = Node(
+        package="slam_toolbox",
+        executable="async_slam_toolbox_node",
+        name="slam_toolbox",
+        condition=IfCondition(LaunchConfiguration("slam")),
+    )
+    filter = Node(package="twist_mux", executable="twist_mux", parameters=[{parameters}])
+    nodes = [filter, left, {nodes}]
+    {end}LaunchDescription([{arguments}*nodes, {driven}, mapping, localization, handler{opaque}])
+"""
+RIGHT = {
+    "more": "return [Node(package='joy', executable='joy_node')]",
+    "goal": "inactive",
+    "driver": "UnlessCondition",
+    "amcl": "UnlessCondition",
+    "parameters": "*common, settings",
+    "nodes": "right",
+    "end": "return ",
+    "arguments": "*arguments, ",
+    "driven": "driver",
+    "opaque": ", OpaqueFunction(function=more)",
+}
+MISTAKES = [
+    ("more", "[Node(package='joy', executable='joy_node')]", 10, "`more` of an OpaqueFunction does not return its"),
+    ("goal", "active", 18, "`active` never follows the state `configuring`; `inactive` or `unconfigured` follows it"),
+    ("goal", "inactiv", 18, "unknown state `inactiv` of a lifecycle node"),
+    ("driver", "IfCondition", 19, "this starts a driver of the hardware if `sim` is true; the condition is inverted"),
+    (
+        "amcl",
+        "IfCondition",
+        20,
+        "both publish the transform from the map frame to the odometry frame if `slam` is true",
+    ),
+    ("parameters", "'settings'", 29, "is the text `settings`; write the variable `settings` without quotes"),
+    ("parameters", "*common, {'use_stampd': True}", 29, "unknown parameter `use_stampd`"),
+    ("nodes", "filter", 17, "Node `right` is not added to the launch description"),
+    ("end", "", 31, "does not return a LaunchDescription"),
+    (
+        "arguments",
+        "",
+        14,
+        "list of arguments `arguments` is not added to the launch description: the arguments are not",
+    ),
+    ("driven", "driver()", 31, "`driver` is an action, not a function; write it without parentheses"),
+]
+
+
+@pytest.mark.parametrize(("part", "wrong", "line", "words"), MISTAKES)
+def test_a_mistake_in_a_python_launch_file_is_reported_at_its_line(tmp_path, part, wrong, line, words):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "joy", "nav2_amcl", "slam_toolbox", "twist_mux")
+    right = {**RIGHT, "opaque": ""} if part == "amcl" else RIGHT
+    for values, count in (({**right, part: wrong}, 1), (right, 0)):
+        write(cart / "launch/cart.launch.py", LAUNCH.format(**values))
+        assert [each.line for each in lint(cart) if words in each.text] == [line] * count
+
+
+@pytest.mark.parametrize(("name", "count"), [("prot", 1), ("port", 0)])
+def test_a_path_behind_a_variable_is_read(tmp_path, name, count):
+    cart = package(tmp_path / "cart", "ament_cmake", "robot_state_publisher", "xacro")
+    write(cart / "cart.urdf", f'<robot name="cart">\n  <!-- -->{ROBOT_WITH_ARGUMENT}</robot>\n')
+    (cart / "cart.urdf").rename(cart / "cart.urdf.xacro")
+    value = f"$(command 'xacro $(var share)/cart.urdf.xacro {name}:=/dev/tty')"
+    node = '<node pkg="robot_state_publisher" exec="robot_state_publisher"><param name="robot_description"'
+    node += f' value="{value}"'
+    share = '<let name="share" value="$(find-pkg-share cart)"/>'
+    write(cart / "launch/cart.launch.xml", f'<launch>\n{share}\n{node} type="str"/></node>\n</launch>\n')
+    assert len(found(cart, "L102")) == count
+    write(
+        cart / "launch/cart.launch.xml", f'<launch>\n{share}\n<include file="$(var share)/launch/{name}.py"/></launch>'
+    )
+    write(cart / "launch/port.py", "")
+    assert len(found(cart, "K958")) == count
+
+
+ROBOT_WITH_ARGUMENT = (
+    '<xacro:arg xmlns:xacro="http://www.ros.org/wiki/xacro" name="port" default="/dev/ttyACM0"/>'
+    '<link name="base"/><ros2_control name="c" type="system"><hardware><plugin>a/B</plugin>'
+    '<param name="port">$(arg port)</param></hardware></ros2_control>'
+)

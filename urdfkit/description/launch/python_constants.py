@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from functools import lru_cache
 
 from urdfkit.description.xml.source import Source
@@ -63,8 +64,9 @@ class LaunchReader:
 
         values: dict[str, list[ast.expr | None]] = {}
         for node in ast.walk(tree):
-            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-                values.setdefault(node.targets[0].id, []).append(node.value)
+            if isinstance(node, ast.Assign) and len(node.targets) == 1:
+                for name, value in assignments(node.targets[0], node.value):
+                    values.setdefault(name.id, []).append(value)
         stored = Counter(n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
         arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
         self.assigned = {
@@ -87,6 +89,22 @@ class LaunchReader:
             texts = [self.text(each, depth + 1) for each in pieces] if is_plain else [None]
             return "".join(text for text in texts if text is not None) if None not in texts else None
         return None
+
+    def items(self, node: ast.expr | None, depth: int = 0) -> list[ast.expr]:
+        """Return the items of a list or tuple, with those of lists that are unpacked or added; empty for others."""
+        import ast
+
+        if depth > 8:
+            return []
+        if isinstance(node, ast.Name):
+            return self.items(self.assigned.get(node.id), depth + 1)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+            return [*self.items(node.left, depth + 1), *self.items(node.right, depth + 1)]
+        found: list[ast.expr] = []
+        for item in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
+            inner = self.items(item.value, depth + 1) if isinstance(item, ast.Starred) else []
+            found += inner or [item]
+        return found
 
     def share(self, node: ast.expr) -> str | None:
         """Return the package whose share folder a call returns; None for other calls."""
@@ -134,6 +152,19 @@ class LaunchReader:
                 return None
             return head[0], "/".join((head[1], *(tail.strip("/") for tail in tails if tail is not None)))
         return None
+
+
+def assignments(target: ast.expr, value: ast.expr) -> Iterator[tuple[ast.Name, ast.expr]]:
+    """Yield the names that an assignment binds, with their values; ``a, b = x, y`` binds two."""
+    import ast
+
+    if isinstance(target, ast.Name):
+        yield target, value
+    elif isinstance(target, (ast.Tuple, ast.List)) and isinstance(value, (ast.Tuple, ast.List)):
+        is_plain = not any(isinstance(each, ast.Starred) for each in (*target.elts, *value.elts))
+        if is_plain and len(target.elts) == len(value.elts):
+            for name, each in zip(target.elts, value.elts, strict=True):
+                yield from assignments(name, each)
 
 
 def name_of(node: ast.expr) -> str:

@@ -104,6 +104,28 @@ def _elements(source: Source) -> tuple[LaunchAction, ...]:
     return tuple(_from_tag(tag) for tag in Document(source).roots)
 
 
+@lru_cache(maxsize=400)
+def _values(source: Source) -> dict[str, str]:
+    """Return the values of the arguments of a launch file that are paths in packages and that no file can change.
+
+    These are those of ``<let>``, and in ROS 1 the ``value`` of ``<arg>``.
+    """
+    found: dict[str, str] = {}
+    for element in all_elements(source):
+        name, value = (element.attributes.get(key) for key in ("name", "value"))
+        if element.tag in ("let", "arg") and name is not None and value is not None and re.match(_FIND, value.name):
+            found[name.name] = value.name if name.name not in found else ""
+    return {name: value for name, value in found.items() if value}
+
+
+def resolved_text(source: Source, text: str) -> str:
+    """Return a text of a launch file with the constant paths in packages that its arguments have."""
+    if "$(" not in text:
+        return text
+    values = _values(source)
+    return re.sub(r"\$\((?:arg|var)\s+([\w.-]+)\s*\)", lambda use: values.get(use[1], use[0]), text) if values else text
+
+
 def share_of(text: str) -> tuple[str, str]:
     """Return package and path of a text like ``$(find package)/launch/x.launch``; empty if they are computed."""
     match = re.fullmatch(rf"\s*['\"]?{_FIND}/([^$\"']+?)['\"]?\s*", text)
@@ -124,7 +146,7 @@ def _read(action: LaunchAction, found: LaunchActions, is_conditional: bool) -> N
     elif tag in ("let", "set_launch_configuration", "set_var") and name is not None:
         found.assigned.add(name.name)
     elif tag == "include":
-        package, path = share_of(at["file"].name if "file" in at else "")
+        package, path = share_of(resolved_text(found.source, at["file"].name) if "file" in at else "")
         passed = [child.attributes["name"] for child in action.children if _passes(child)]
         is_all = "pass_all_args" in at
         call = Call(package, path, action.start, action.end, tuple(passed), is_all, is_conditional=is_conditional)
@@ -136,7 +158,7 @@ def _read(action: LaunchAction, found: LaunchActions, is_conditional: bool) -> N
         found.nodes.append(Executable(*literal))
     for one in at.values():
         if "xacro" in one.name and (command := re.search(_XACRO, one.name, re.DOTALL)) is not None:
-            words = [word for word in _words(command[1]) if ":=" not in word]
+            words = [word for word in _words(resolved_text(found.source, command[1])) if ":=" not in word]
             defaults = [found.defaults.get(use[1], "") for word in words if (use := re.fullmatch(_ARGUMENT, word))]
             package, path = next((share for word in (*words, *defaults) if (share := share_of(word))[0]), ("", ""))
             start = one.start + command.start(1)

@@ -165,9 +165,9 @@ def _in_python(source: Source) -> Iterator[tuple[str, list[Named]]]:
     for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call) and name_of(each.func) == "Node"):
         words = {word.arg: word.value for word in call.keywords}
         package, listed = (words.get(key) for key in ("package", "parameters"))
-        if package is None or not isinstance(listed, (ast.List, ast.Tuple)):
+        if package is None or not (listed_items := reader.items(listed)):
             continue
-        items = [reader.assigned.get(item.id) if isinstance(item, ast.Name) else item for item in listed.elts]
+        items = [reader.assigned.get(item.id) if isinstance(item, ast.Name) else item for item in listed_items]
         keys = [key for item in items if isinstance(item, ast.Dict) for key in item.keys]
         yield (
             reader.text(package) or "",

@@ -10,10 +10,11 @@ Humble to Rolling.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
+from urdfkit.errors import did_you_mean
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
 
@@ -48,11 +49,15 @@ _ONLY_FIRST = {
 def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield the place and message of each value of the wrong kind."""
     reader, classes = launch_reader(tree), launch_classes(tree)
+    created = {name for name, kind in classes.items() if kind in _ACTIONS}
+    found: Iterable[tuple[ast.expr, str]]
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (kind := class_called(node, classes)):
             found = _of_call(node, kind, reader)
         elif isinstance(node, (ast.Compare, ast.If, ast.IfExp)):
             found = _compared(node, reader)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and _called(node.func, reader) in created:
+            found = [(node, f"`{node.func.id}` is an action, not a function; write it without parentheses")]
         elif isinstance(node, ast.Call) and name_of(node.func) == "bool" and len(node.args) == 1:
             found = _truth(node, node.args[0], reader)
         elif isinstance(node, ast.Call) and name_of(node.func) == "join":
@@ -75,17 +80,12 @@ def _is_text(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and isinstance(node.value, str)
 
 
-def _items(node: ast.expr, reader: LaunchReader) -> list[ast.expr]:
-    value = _value(node, reader)
-    return list(value.elts) if isinstance(value, (ast.List, ast.Tuple)) else []
-
-
 def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     words = {word.arg: word.value for word in call.keywords if word.arg is not None}
     if kind in _ONLY_FIRST and len(call.args) > 1:
         yield call.args[1], _ONLY_FIRST[kind]
     elif kind == "PathJoinSubstitution":
-        yield from _absolute_parts(_items(call.args[0], reader) if call.args else [], reader)
+        yield from _absolute_parts(reader.items(call.args[0]) if call.args else [], reader)
     elif kind == "ParameterValue":
         yield from _of_command(call, words.get("value_type"), reader)
     if kind in _OF_PROCESSES and (target := words.get("target_action")) is not None:
@@ -106,6 +106,8 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         actions = words.get("actions") or (call.args[0] if kind == "GroupAction" and call.args else None)
         if actions is not None and _called(actions, reader) in _ACTIONS:
             yield actions, f"`actions` of `{kind}` is not a list; write it in brackets"
+    elif kind == "OnStateTransition":
+        yield from _transition(words, reader)
     elif kind == "LaunchDescription":
         if len(call.args) > 1:
             yield call.args[1], "`LaunchDescription` has one list of actions; join the lists with `+`"
@@ -134,11 +136,34 @@ def _of_command(call: ast.Call, kind: ast.expr | None, reader: LaunchReader) -> 
         yield kind, f"the output of the command is a text, not a value of type `{kind.id}`; write `str`"
 
 
+_TRANSITIONS = {
+    **{"unconfigured": "configuring shuttingdown", "configuring": "inactive unconfigured errorprocessing"},
+    **{"inactive": "activating cleaningup shuttingdown", "cleaningup": "unconfigured inactive errorprocessing"},
+    **{"activating": "active inactive errorprocessing", "active": "deactivating shuttingdown errorprocessing"},
+    **{"deactivating": "inactive active errorprocessing", "shuttingdown": "finalized errorprocessing"},
+    **{"errorprocessing": "unconfigured finalized", "finalized": ""},
+}
+"""State of a lifecycle node → the states that follow (rcl_lifecycle/src/default_state_machine.c)."""
+
+
+def _transition(words: dict[str, ast.expr], reader: LaunchReader) -> Defects:
+    """Yield the states of an event handler that do not exist, or that do not follow each other."""
+    texts = {key: reader.text(words[key]) for key in ("start_state", "goal_state") if key in words}
+    for key, text in texts.items():
+        if text is not None and text not in _TRANSITIONS:
+            yield words[key], f"unknown state `{text}` of a lifecycle node" + did_you_mean(text, _TRANSITIONS)
+            return
+    start, goal = texts.get("start_state"), texts.get("goal_state")
+    if start and goal and goal not in _TRANSITIONS[start].split():
+        following = " or ".join(f"`{each}`" for each in _TRANSITIONS[start].split()[:2]) or "no state"
+        yield words["goal_state"], f"`{goal}` never follows the state `{start}`; {following} follows it"
+
+
 def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, reader: LaunchReader) -> Defects:
     if target is not None and (_is_text(target) or isinstance(_value(target, reader), (ast.List, ast.Tuple))):
         what = "string" if _is_text(target) else "list"
         yield target, f"`target_action` is a {what}; write one action"
-    listed = [] if reactions is None else _items(reactions, reader) or [reactions]
+    listed = [] if reactions is None else reader.items(reactions) or [reactions]
     for item in listed:
         if _is_text(item):
             yield item, f"`{word}` has a string; write the variable of an action without quotes"
@@ -151,9 +176,11 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
         value = words.get(name)
         if value is not None and _called(value, reader) in (*_PATHS, *_VALUES):
             yield value, f"`{name}` of `{kind}` is not a list; write it in brackets"
-    for item in _items(words["parameters"], reader) if "parameters" in words else ():
+    for item in reader.items(words["parameters"]) if "parameters" in words else ():
         value = _value(item, reader)
-        if isinstance(value, ast.Set):
+        if _is_text(value) and value is item and (name := reader.text(value) or "") in reader.assigned:
+            yield value, f"an item of `parameters` is the text `{name}`; write the variable `{name}` without quotes"
+        elif isinstance(value, ast.Set):
             yield value, "an item of `parameters` is a set; write a colon between name and value"
         elif _called(item, reader) in _VALUES:
             yield item, "an item of `parameters` is a value without a name; write {name: value}"
@@ -169,12 +196,12 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
                     _value(each, reader),
                     f"`robot_description` is the path of `{path}` and not its text; run xacro with `Command`",
                 )
-    for item in _items(words["arguments"], reader) if "arguments" in words else ():
+    for item in reader.items(words["arguments"]) if "arguments" in words else ():
         number = item.operand if isinstance(item, ast.UnaryOp) else item
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
             yield item, "an item of `arguments` is not a string; write it in quotes"
     remappings = words.get("remappings")
-    pairs = _items(remappings, reader) if remappings is not None else []
+    pairs = reader.items(remappings) if remappings is not None else []
     if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
         yield remappings, 'an item of `remappings` is a string; write pairs, [("from", "to")]'
 

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements, share_of
+from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements, roots_of, share_of
 from urdfkit.record import record
 
 _USE = r"\s*\$\((?:arg|var)\s+([\w.-]+)\s*\)\s*"
-_OPAQUE = r"GroupAction|OpaqueFunction|namespace|PushR|<push|\bns\s*="
+_OPAQUE = r"OpaqueFunction\(|namespace(?!\w*\s*[=:]\s*(?:''|\"\"))|PushR|<push|<(?:group|node|include)\b[^<>]*\bns\s*="
 """Matches launch files whose conditions are outside of the actions, or that start several robots."""
 
 _ACTIONS = ("GroupAction", "IncludeLaunchDescription", "LifecycleNode", "Node")
@@ -30,6 +30,7 @@ class Start:
         is_include: whether it is an include.
         name: name of the node; empty without a constant one.
         passed: launch arguments that an include passes: ``true``, ``false``, a name after ``$``, or empty if computed.
+        group: first and last offset of the innermost group around it with a condition, or of its start tag.
     """
 
     place: tuple[int, int]
@@ -39,6 +40,7 @@ class Start:
     is_include: bool
     name: str
     passed: dict[str, str]
+    group: tuple[int, int] | None = None
 
 
 @record(eq=False)
@@ -120,27 +122,32 @@ def starts(source: Source) -> tuple[list[Start], dict[str, str]]:
 
 
 def _in_elements(source: Source) -> Iterator[Start]:
-    inner = {id(child) for group in all_elements(source) if group.tag == "group" for child in _below(group)}
-    for element in all_elements(source):
+    waiting: list[tuple[LaunchAction, dict[str, bool], tuple[int, int] | None]]
+    waiting = [(each, {}, None) for each in reversed(roots_of(source))]
+    while waiting:
+        element, outer, group = waiting.pop()
         at = element.attributes
-        is_include = element.tag == "include"
-        if element.tag not in ("node", "include") or id(element) in inner:
-            continue
         uses = [(re.fullmatch(_USE, at[key].name), key == "if") for key in ("if", "unless") if key in at]
         conditions = {use[1]: value for use, value in uses if use is not None}
-        package, program = _subject(element)
-        if len(conditions) < len(uses):
+        if len(conditions) < len(uses) or any(outer.get(name, value) != value for name, value in conditions.items()):
+            continue  # computed, or never true
+        conditions = {**outer, **conditions}
+        if element.tag in ("launch", "group"):
+            inner = (element.start, element.end) if uses else group
+            waiting += [(child, conditions, inner) for child in reversed(element.children)]
+        if element.tag not in ("node", "include"):
             continue
+        package, program = _subject(element)
         passed = {
             child.attributes["name"].name: _value(child.attributes["value"].name)
             for child in element.children
             if {"name", "value"} <= child.attributes.keys()
         }
         name = at["name"].name if "name" in at else ""
-        if is_include:
-            yield Start((element.start, element.end), conditions, package, program, True, "", passed)
+        if element.tag == "include":
+            yield Start((element.start, element.end), conditions, package, program, True, "", passed, group)
         elif package or program:
-            yield Start((element.start, element.end), conditions, package, program, False, name, {})
+            yield Start((element.start, element.end), conditions, package, program, False, name, {}, group)
 
 
 def _below(element: LaunchAction) -> Iterator[LaunchAction]:
@@ -159,21 +166,44 @@ def _value(text: str) -> str:
 def _in_python(source: Source, tree: ast.Module) -> Iterator[Start]:
     reader = launch_reader(tree)
     conditional = {inner for node in ast.walk(tree) if isinstance(node, _BRANCHES) for inner in ast.walk(node)}
+    groups = _groups(tree, reader)
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call) and node not in conditional):
         kind = name_of(call.func)
         if kind not in ("Node", "LifecycleNode", "IncludeLaunchDescription"):
             continue
         words = {word.arg: word.value for word in call.keywords if word.arg is not None}
-        conditions = _condition(words.get("condition"), reader)
-        if conditions is None:
+        conditions, (outer, around) = _condition(words.get("condition"), reader), groups.get(call, ({}, None))
+        group = place(source, around) if around is not None else None
+        if conditions is None or outer is None:
             continue
+        if any(outer.get(name, value) != value for name, value in conditions.items()):
+            continue
+        conditions = {**outer, **conditions}
         package, program = _called(call, reader)
         if kind == "IncludeLaunchDescription":
             passed = _passed(words.get("launch_arguments"), reader)
-            yield Start(place(source, call), conditions, package, program, True, "", passed)
+            yield Start(place(source, call), conditions, package, program, True, "", passed, group)
         else:
             name = (reader.text(words["name"]) or "") if "name" in words else ""
-            yield Start(place(source, call), conditions, package, program, False, name, {})
+            yield Start(place(source, call), conditions, package, program, False, name, {}, group)
+
+
+Group = tuple[dict[str, bool] | None, ast.Call | None]
+
+
+def _groups(tree: ast.Module, reader: LaunchReader) -> dict[ast.expr, Group]:
+    """Return the actions in groups with the conditions and the innermost of these; None for computed conditions."""
+    found: dict[ast.expr, Group] = {}
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) == "GroupAction"]
+    for call in calls:  # from the outermost one
+        words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+        (outer, around), own = found.get(call, ({}, None)), _condition(words.get("condition"), reader)
+        listed = reader.items(words.get("actions") or (call.args[0] if call.args else None))
+        for action in [_assigned(item, reader) for item in listed]:
+            if action is not None:
+                both = None if outer is None or own is None else {**outer, **own}
+                found[action] = both, call if "condition" in words else around
+    return found
 
 
 def _condition(node: ast.expr | None, reader: LaunchReader) -> dict[str, bool] | None:

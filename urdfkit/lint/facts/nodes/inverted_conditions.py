@@ -89,11 +89,19 @@ def _in_simulation(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]
                 what = _started(start, by_file, model) if re.fullmatch(_SIMULATED, name) else ""
                 if what == (_ROBOT if value else _WORLD):
                     word = "true" if value else "false"
-                    yield (
-                        source,
-                        _condition(source, start.place),
-                        f"this starts {what} if `{name}` is {word}; the condition is inverted",
-                    )
+                    message = f"this starts {what} if `{name}` is {word}; the condition is inverted"
+                    yield source, _condition(source, start.place), message
+        for action in conditional_actions(source) if file.endswith(LAUNCH) else ():
+            if re.fullmatch(_SIMULATED, action.argument):
+                parts = [
+                    Start(action.place, {}, *each, "." in each[1] and "/" in each[1], "", {})
+                    for each in action.subjects
+                ]
+                kinds = {_started(part, by_file, model) for part in parts}
+                if kinds == {_ROBOT if action.value else _WORLD}:
+                    word = "true" if action.value else "false"
+                    message = f"this starts {kinds.pop()} if `{action.argument}` is {word}; the condition is inverted"
+                    yield source, _condition(source, action.place), message
 
 
 def _condition(source: Source, place: tuple[int, int]) -> tuple[int, int]:

@@ -1,5 +1,6 @@
 """Nodes that publish the transform from the map to the odometry, and the launch arguments that start them together."""
 
+import re
 from collections.abc import Iterator
 from itertools import combinations
 
@@ -40,11 +41,35 @@ _MAX_READINGS = 200
 
 @record(eq=False)
 class TransformSource:
-    """A node that publishes the transform: its label, the arguments that start it, and the action in the first file."""
+    """A node that publishes the transform.
+
+    Attributes:
+        label: its name.
+        conditions: the arguments that start it.
+        place: the action in the first file that starts it.
+        group: the group with a condition around this action.
+    """
 
     label: str
     conditions: dict[str, bool]
     place: tuple[int, int]
+    group: tuple[int, int] | None = None
+
+
+_MAPPING, _LOCALIZATION = r"slam|mapping", r"amcl|locali[sz]ation"
+_CONDITION = r"(?:If|Unless)Condition\b|\b(?:if|unless)(?=\s*=)"
+
+
+def _inverted(first: TransformSource, second: TransformSource) -> TransformSource | None:
+    """Return the source that an argument with the name of the other kind starts, such as amcl if ``slam`` is true."""
+    for name, value in first.conditions.items() if first.conditions == second.conditions else ():
+        kinds = [kind for kind in (_MAPPING, _LOCALIZATION) if re.search(kind, name)]
+        unmeant = {_MAPPING: _LOCALIZATION, _LOCALIZATION: _MAPPING}
+        wrong = (unmeant[kinds[0]] if value else kinds[0]) if len(kinds) == 1 else "$^"
+        found = [each for each in (first, second) if re.search(wrong, each.label)]
+        if len(found) == 1:
+            return found[0]
+    return None
 
 
 def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], tuple[str, str], str]]:
@@ -68,12 +93,17 @@ def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], 
             is_possible = all(first.conditions[each] == second.conditions[each] for each in common)
             if first.place != second.place and is_nested and is_possible and second.place not in seen:
                 seen.add(second.place)
+                wrong = _inverted(first, second)
+                around = wrong.group or wrong.place if wrong is not None else second.place
+                at = re.search(_CONDITION, source.text[slice(*around)]) if wrong is not None else None
+                if at is not None:
+                    around = around[0] + at.start(), around[0] + at.end()
                 conditions = {**first.conditions, **second.conditions}
                 when = " and ".join(f"`{each}` is {str(value).lower()}" for each, value in conditions.items())
                 labels = f"`{first.label}` and `{second.label}`"
                 message = f"{labels} both publish the transform from the map frame to the odometry frame"
                 both = first.label, second.label
-                yield source, second.place, both, f"{message} if {when}" if when else message
+                yield source, around, both, f"{message} if {when}" if when else message
 
 
 class _Publishers:
@@ -108,11 +138,11 @@ class _Publishers:
                 continue
             label = _label(start, source, self._filters)
             if label:
-                yield TransformSource(label, conditions, start.place)
+                yield TransformSource(label, conditions, start.place, start.group)
             elif start.is_include and depth < _MAX_DEPTH:
                 for each in self._included(start, values, depth):
                     if all(conditions.get(name, value) == value for name, value in each.conditions.items()):
-                        yield TransformSource(each.label, {**conditions, **each.conditions}, start.place)
+                        yield TransformSource(each.label, {**conditions, **each.conditions}, start.place, start.group)
 
     def _included(self, start: Start, values: dict[str, str], depth: int) -> list[TransformSource]:
         path = receiver(Call(start.package, start.program, *start.place, ()), self._model)

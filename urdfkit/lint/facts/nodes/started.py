@@ -11,7 +11,7 @@ from urdfkit.description.packages.related_files import LAUNCH, neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.actions import LaunchAction, launch_files, roots_of, share_of
+from urdfkit.lint.facts.launch.actions import LaunchAction, launch_files, resolved_text, roots_of, share_of
 from urdfkit.lint.facts.nodes.namespaces import PUSHED, LaunchPlace, included_in_namespace, inside
 from urdfkit.lint.facts.nodes.python_bindings import Binding, bindings, resolved
 from urdfkit.lint.model.model import Model
@@ -112,6 +112,7 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str], place
         is_loaded = "ns" not in parts and ("command" not in parts or parts["command"].name == "load")
         if file is not None and (child.tag == "param" or (child.tag == "rosparam" and is_loaded)):
             text = re.sub(rf"^\s*{_ARGUMENT}\s*$", lambda use: defaults.get(use[1], use[0]), file.name)
+            text = resolved_text(source, text)
             files.append(share_of(text))
         elif child.tag == "remap" and "from" in parts and "to" in parts:
             remappings.append((parts["from"], parts["to"]))
@@ -149,11 +150,10 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
             values = {key: resolved(value, binding) for key, value in words.items()}
             texts = {key: reader.text(value) if value is not None else None for key, value in values.items()}
             name = values.get("name")
-            listed = values.get("parameters")
-            if isinstance(listed, ast.Name):
-                listed = reader.assigned.get(listed.id)
-            items = listed.elts if isinstance(listed, (ast.List, ast.Tuple)) else []
-            remappings = tuple(_remappings(source, values.get("remappings"), reader, binding))
+            items = reader.items(values.get("parameters"))
+            moved_names = values.get("remappings")
+            remappings = tuple(_remappings(source, moved_names, reader, binding))
+            is_open = any(word.arg is None for word in call.keywords)
             files = [_file(resolved(item, binding), reader, defaults) for item in items]
             yield LaunchedNode(
                 source,
@@ -165,7 +165,7 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 remappings,
                 place(source, words["executable"]) if "executable" in words else None,
                 _inline(source, call, items, binding, reader, files),
-                any(word.arg is None for word in call.keywords) or _has_more(values.get("remappings"), len(remappings)),
+                is_open or _has_more(moved_names, reader, len(remappings)),
                 space.strip("/") if space is not None else None,
                 None,
                 "condition" in words or call in branches,
@@ -281,20 +281,15 @@ def _literal(source: Source, node: ast.expr, reader: LaunchReader) -> Named | No
     return Named(node.value, start + offset) if offset >= 0 else None
 
 
-def _has_more(node: ast.expr | None, count: int) -> bool:
+def _has_more(node: ast.expr | None, reader: LaunchReader, count: int) -> bool:
     """Return whether a value of ``remappings`` can have more pairs than those with constant names."""
-    return node is not None and not (isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == count)
+    return node is not None and (not isinstance(node, (ast.List, ast.Tuple)) or len(reader.items(node)) != count)
 
 
 def _remappings(
     source: Source, node: ast.expr | None, reader: LaunchReader, binding: Binding
 ) -> Iterator[tuple[Named, Named]]:
-    if isinstance(node, ast.Name):
-        node = reader.assigned.get(node.id)
-    if isinstance(node, ast.BinOp):
-        for part in (node.left, node.right):
-            yield from _remappings(source, part, reader, binding)
-    for item in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
+    for item in reader.items(node):
         pair = reader.assigned.get(item.id) if isinstance(item, ast.Name) else item
         if isinstance(pair, ast.Tuple) and len(pair.elts) == 2:
             parts = [resolved(part, binding) for part in pair.elts]

@@ -182,12 +182,12 @@ def _in_python(model: Model, packages: Collection[str]) -> Iterator[_Setting]:
         for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call) and name_of(each.func) == "Node"):
             words = {word.arg: word.value for word in call.keywords}
             package, program = (reader.text(words[key]) if key in words else None for key in ("package", "executable"))
-            listed = words.get("parameters")
-            if package is None or program is None or not isinstance(listed, (ast.List, ast.Tuple)):
+            listed = reader.items(words.get("parameters"))
+            if package is None or program is None or not listed:
                 continue
             if package not in packages:
                 continue
-            items = [reader.assigned.get(item.id) if isinstance(item, ast.Name) else item for item in listed.elts]
+            items = [reader.assigned.get(item.id) if isinstance(item, ast.Name) else item for item in listed]
             for item in (each for each in items if isinstance(each, ast.Dict)):
                 for key, value in zip(item.keys, item.values, strict=True):
                     if isinstance(key, ast.Constant) and isinstance(key.value, str):

@@ -10,9 +10,10 @@ from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _ACTIONS = """
-AppendEnvironmentVariable ComposableNodeContainer DeclareLaunchArgument ExecuteProcess GroupAction
-IncludeLaunchDescription LifecycleNode LoadComposableNodes Node OpaqueFunction PushRosNamespace RegisterEventHandler
-SetEnvironmentVariable SetLaunchConfiguration SetParameter SetParametersFromFile SetRemap TimerAction
+AppendEnvironmentVariable ComposableNodeContainer DeclareLaunchArgument EmitEvent ExecuteProcess GroupAction
+IncludeLaunchDescription LifecycleNode LoadComposableNodes LogInfo Node OpaqueFunction PushRosNamespace
+RegisterEventHandler SetEnvironmentVariable SetLaunchConfiguration SetParameter SetParametersFromFile SetRemap
+TimerAction
 """
 _TARGETS = frozenset(("target_action", "target_lifecycle_node"))
 _SCOPES = frozenset(("eval", "exec", "globals", "locals", "vars"))
@@ -22,10 +23,10 @@ class LaunchActionUnused(RobotRule):
     """A Python launch file creates an action that it does not add to the launch description.
 
     ## What it does
-    Checks the variables of Python launch files that hold a node, an argument, an include or another action. An action
-    that is only the target of an event handler is not started either. A variable that a comment mentions is not
-    checked, because its action is probably disabled on purpose. Attributes of classes are not checked, because code can
-    collect the actions stored in them.
+    Checks the variables of Python launch files that hold a node, an argument, an include or another action, or a list
+    of these. An action that is only the target of an event handler is not started either. A variable that a comment
+    mentions is not checked, because its action is probably disabled on purpose. Attributes of classes are not checked,
+    because code can collect the actions stored in them.
 
     ## Why is this bad?
     The node is not started, or the argument is not declared. There is no error message.
@@ -76,7 +77,10 @@ class LaunchActionUnused(RobotRule):
         from urdfkit.lint.facts.control.launch_package_paths import place
 
         only = "is only the target of an event handler and " if is_target else ""
-        effect = "the argument is not declared" if kind == "DeclareLaunchArgument" else "it has no effect"
+        effect = {
+            "DeclareLaunchArgument": "the argument is not declared",
+            "list of arguments": "the arguments are not declared",
+        }.get(kind, "it has no effect")
         message = f"{kind} `{node.id}` {only}is not added to the launch description: {effect}"
         return self.at_span(source.span(*place(source, node)), message)
 
@@ -96,19 +100,24 @@ def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str],
     """Return the variables that only hold actions, the names that are used, and those used as targets of handlers."""
     import ast
 
+    from urdfkit.description.launch.python_constants import assignments
     from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
 
-    classes, actions = launch_classes(tree), _ACTIONS.split()
+    classes, actions = launch_classes(tree), set(_ACTIONS.split())
     created: dict[str, tuple[ast.Name, str]] = {}
     targets: set[ast.AST] = set()
     attributes = {part for node in ast.walk(tree) if isinstance(node, ast.ClassDef) for part in node.body}
     for node in ast.walk(tree):
         if isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value is not None and node not in attributes:
             left = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            kind = class_called(node.value, classes)
             is_one = isinstance(node, ast.AnnAssign) or len(node.targets) == 1
-            if kind in actions and isinstance(left, ast.Name) and is_one:
-                created.setdefault(left.id, (left, kind))
+            for name, value in assignments(left, node.value) if is_one else ():
+                items = value.elts if isinstance(value, ast.List) else [value]
+                kinds = {class_called(item, classes) for item in items}
+                if kinds and kinds <= actions:
+                    what = "arguments" if kinds == {"DeclareLaunchArgument"} else "actions"
+                    kind = f"list of {what}" if isinstance(value, ast.List) else kinds.pop()
+                    created.setdefault(name.id, (name, kind))
         elif isinstance(node, ast.Call):
             targets.update(word.value for word in node.keywords if word.arg in _TARGETS)
             if class_called(node, classes) == "matches_action":

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.records import Call, LaunchActions
 from urdfkit.lint.finding import Finding, Severity
@@ -131,9 +132,10 @@ class LaunchArgumentUnknown(RobotRule):
         # The description of another robot can be a part of this one.
         if path is None or path.resolve() not in (Path(each).resolve() for each in model.expanded.sources):
             return
-        sources = model.expanded.sources.values()
+        left_out = _files_left_out(model)
+        sources = [*model.expanded.sources.values(), *(left_out or ())]
         names = [*declared_arguments(sources), *(each.name for each in call.passed if is_used(each.name, sources))]
-        may_have_more = call.passes_all or bool(model.missing_file) or _leaves_out_files(model)
+        may_have_more = call.passes_all or bool(model.missing_file) or left_out is None
         yield from self._unknown(file, call.passed, names, path.name, may_have_more, self.severity)
 
     def _unknown(
@@ -185,12 +187,37 @@ def _with_these_words(name: str, others: list[str], only_optional: bool) -> str 
     return near[0] if is_meant else None
 
 
-def _leaves_out_files(model: Model) -> bool:
-    """Return whether a description includes files only with other arguments, which may declare more arguments."""
-    found = {name.rpartition("/")[2] for name in model.expanded.sources}
-    texts = (source.text for source in model.expanded.sources.values())
-    included = (at[1] for text in texts for at in re.finditer(_INCLUDE, text))
-    return any(name.rpartition("/")[2] not in found for name in included)
+def _files_left_out(model: Model) -> list[Source] | None:
+    """Return the files that a description includes only with other arguments, which may declare more arguments.
+
+    None if one of them is not a file of these packages.
+    """
+    from urdfkit.description.packages.existence import is_file
+    from urdfkit.description.packages.related_files import neighbours
+    from urdfkit.description.xml.reader import read_source, shown_path
+    from urdfkit.errors import ResourceError
+    from urdfkit.lint.facts.launch.actions import share_of
+
+    names = {name.rpartition("/")[2] for name in model.expanded.sources}
+    texts = [source.text for source in model.expanded.sources.values()]
+    packages = neighbours(model.package) if model.package is not None else {}
+    found: list[Source] = []
+    for text in texts:  # the list grows during the iteration
+        for at in re.finditer(_INCLUDE, text):
+            package, path = share_of(at[1])
+            if at[1].rpartition("/")[2] in names:
+                continue
+            names.add(at[1].rpartition("/")[2])
+            if package not in packages or not is_file(packages[package] / path) or len(found) > _MOST_FILES:
+                return None
+            try:
+                file = packages[package] / path
+                found.append(read_source(file, shown_as=shown_path(file), texts=model.texts))
+            except ResourceError:
+                return None
+            texts.append(found[-1].text)
+    return found
 
 
+_MOST_FILES = 40
 _INCLUDE = r"<xacro:include\b[^<>]*?\bfilename\s*=\s*[\"']([^\"'<>]*)[\"']"

@@ -15,7 +15,7 @@ class PythonLaunchNameUndefined(RobotRule):
     ## What it does
     Compares the names that a launch file uses with the names that it imports or defines anywhere, and with the built-in
     names of Python. Files with ``from ... import *`` are not checked. The function ``generate_launch_description`` must
-    have this name and must return a value.
+    have this name and must return a value, and the function of an OpaqueFunction must return the list of its actions.
 
     ## Why is this bad?
     The launch file stops with an error before it starts a node.
@@ -69,7 +69,45 @@ class PythonLaunchNameUndefined(RobotRule):
                 yield self.at_span(span, message)
             elif function.name == _FUNCTION and not any(_ends(node) for node in own_nodes(function)):
                 message = f"`{_FUNCTION}` does not return a LaunchDescription"
-                yield self.at_span(span, message)
+                last = next((node for node in function.body if _is_description(node)), function.body[-1])
+                start, end = place(source, last)
+                end = min(end, start + len(source.text[start:end].partition("\n")[0]))
+                yield self.at_span(source.span(start, end), message, help="write `return` and the LaunchDescription")
+            elif not any(_ends(node) for node in own_nodes(function)) and function.name in _opaque(tree):
+                lists = [node for node in own_nodes(function) if isinstance(node, ast.Expr) and _has_actions(node)]
+                for node in lists[:1]:
+                    start, end = place(source, node)
+                    end = min(end, start + len(source.text[start:end].partition("\n")[0]))
+                    message = f"the function `{function.name}` of an OpaqueFunction does not return its actions"
+                    yield self.at_span(source.span(start, end), message, help="write `return` before the list")
+
+
+def _is_description(node: ast.AST) -> bool:
+    """Return whether a statement creates a LaunchDescription without using it."""
+    import ast
+
+    from urdfkit.description.launch.python_constants import name_of
+
+    called = node.value if isinstance(node, ast.Expr) else None
+    return isinstance(called, ast.Call) and name_of(called.func) == "LaunchDescription"
+
+
+def _has_actions(node: ast.Expr) -> bool:
+    """Return whether a statement is a list of calls that no code uses, or a list of names."""
+    import ast
+
+    return isinstance(node.value, (ast.List, ast.Tuple)) and bool(node.value.elts)
+
+
+def _opaque(tree: ast.Module) -> set[str]:
+    """Return the names of the functions that an OpaqueFunction calls."""
+    import ast
+
+    from urdfkit.description.launch.python_constants import name_of
+
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) == "OpaqueFunction"]
+    values = [each for call in calls for each in (*call.args, *(word.value for word in call.keywords))]
+    return {each.id for each in values if isinstance(each, ast.Name)}
 
 
 def _ends(node: ast.AST) -> bool:

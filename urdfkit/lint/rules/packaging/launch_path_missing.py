@@ -137,5 +137,5 @@ _RUN_TIME_FOLDERS = frozenset(
     ("bag", "bags", "rosbag", "rosbags", "log", "logs", "map", "maps", "output", "results", "recordings", "tmp")
 )
 
-_OWN_NAME = r"(?m)^\s*(?:project\s*\([^)]*\)|(?:package_)?name\s*=.*)"
-"""Matches the name of the package in build files, which is often also the name of the robot."""
+_OWN_NAME = r"(?m)^\s*(?:project\s*\([^)]*\)|(?:(?:package_)?name|description)\s*=.*)"
+"""Matches the name of the package in build files, often also that of the robot, and its description."""
