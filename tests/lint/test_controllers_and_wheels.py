@@ -178,3 +178,26 @@ def test_places_of_the_wheels_of_a_mecanum_controller(
     messages = [finding.message for finding in lint(model, select=("K970",))]
     assert len(messages) == (message is not None)
     assert all(message in one for one in messages)
+
+
+FAMILY = """<robot name="{name}" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="radius" value="{radius}"/>
+  <xacro:include filename="cart.xacro"/>
+  <gazebo><plugin name="gazebo_ros2_control" filename="libgazebo_ros2_control.so">
+    <parameters>$(find cart)/config/{loaded}.yaml</parameters></plugin></gazebo>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(("loaded", "files"), [("large", set()), ("small", {"config/small.yaml", "config/large.yaml"})])
+def test_robots_of_a_family_have_their_own_parameters(loaded, files, write, monkeypatch, tmp_path) -> None:
+    write("cart/package.xml", MANIFEST)
+    wheels = [WHEEL.format(name=name, xyz=f"0 {y} 0", axis="0 1 0") for name, y in (("left", 0.2), ("right", -0.2))]
+    write("cart/urdf/cart.xacro", '<link name="base"/>' + "".join(wheels).replace('"0.1"', '"${radius}"'))
+    for name, radius, file in (("small", 0.1, "small"), ("large", 0.2, loaded)):
+        write(f"cart/urdf/{name}.urdf.xacro", FAMILY.format(name=name, radius=radius, loaded=file).encode())
+        names = "".join(f"    {side}_wheel_names: [{side}_joint]\n" for side in ("left", "right"))
+        settings = f"    type: diff_drive_controller/DiffDriveController\n{names}    wheel_radius: {radius}\n"
+        write(f"cart/config/{name}.yaml", f"drive:\n  ros__parameters:\n{settings}".encode())
+    monkeypatch.chdir(tmp_path / "cart")
+    assert {finding.file for finding in lint(".", select=("K970",))} == files

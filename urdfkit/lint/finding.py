@@ -73,6 +73,7 @@ class Finding:
         other: the other side of a contradiction, where the finding is shown if that side is wrong; not in the output.
         is_other_wrong: whether the other side is certainly the wrong one; not in the output.
         related: the findings of other places with the same cause, and the places that contradict this one.
+        trail: the use of a value, the expression that computes it, and the literal at `span`; not in the output.
         variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
 
     Examples:
@@ -104,6 +105,7 @@ class Finding:
     is_other_wrong: bool = False
     related: tuple[Finding, ...] = ()
     variant: str = ""
+    trail: tuple[Span, ...] = ()
 
     def __repr__(self) -> str:
         """Return code, position and message."""

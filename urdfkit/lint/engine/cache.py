@@ -288,6 +288,7 @@ def _row(finding: Finding) -> list[Any]:
         finding.kind,
         finding.names,
         [_row(each) for each in finding.related],
+        [_values(each) for each in finding.trail],
     ]
 
 
@@ -299,7 +300,7 @@ def _finding(row: list[Any]) -> Finding:
     from urdfkit.description.xml.source import Expansion, Position, Span
 
     code, name, severity, message = row[:4]
-    link, joint, help, fix, chains, cause, variant, suggestion, kind, names, related = row[9:]
+    link, joint, help, fix, chains, cause, variant, suggestion, kind, names, related, trail = row[9:]
     return Finding(
         code,
         name,
@@ -317,4 +318,5 @@ def _finding(row: list[Any]) -> Finding:
         suggestion=suggestion and Suggestion(*suggestion),
         variant=variant,
         related=tuple(map(_finding, related)),
+        trail=tuple(Span(*each) for each in trail),
     )

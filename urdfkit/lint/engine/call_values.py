@@ -9,6 +9,9 @@ from urdfkit.lint.facts.values.value_sources import ValueSource, ValueSources
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 
+Trail = tuple[Span, ...]
+"""Places of a value after its use: the expression that computes it if the use only names it, and the literal."""
+
 _HANDED_ON = r"[\s0]*\$\{\s*([A-Za-z_]\w*)\s*\}[\s0]*"
 """Matches a parameter, perhaps between zeros: ``0 0 ${yaw}``."""
 
@@ -42,76 +45,92 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
     simulator and viewer are reported there.
     """
     formulas = {(each.file, each.line) for each in findings if each.code == "X119"}
-    groups: dict[tuple[str, Span], list[Span | None]] = {}
+    groups: dict[tuple[str, Span], list[Trail]] = {}
     calls: dict[tuple[str, Span], set[Expansion]] = {}
     for finding in findings:
         calls.setdefault((finding.code, finding.span), set())
         if (finding.file, finding.line) not in formulas:  # which the macro itself has wrong
             calls[finding.code, finding.span].update(chain[0] for chain in finding.chains)
     sources = ValueSources(model)
-    written = [
+    trails = [
         _literal(finding, model, sources)
-        or (_written(finding, model) if finding.chains else None)
-        or (_only_call(finding, calls[finding.code, finding.span], model) if finding.chains else None)
+        or _trail(_written(finding, model) if finding.chains else None)
+        or _trail(_only_call(finding, calls[finding.code, finding.span], model) if finding.chains else None)
         for finding in findings
     ]
-    for finding, span in zip(findings, written, strict=True):
-        groups.setdefault((finding.code, finding.span), []).append(span)
+    for finding, trail in zip(findings, trails, strict=True):
+        groups.setdefault((finding.code, finding.span), []).append(trail)
     found: list[Finding] = []
-    at_literals: dict[Span, int] = {}
-    for finding, span in zip(findings, written, strict=True):
-        if span is None or len(set(groups[finding.code, finding.span])) > 1:
-            found.append(finding)
-        elif not _OF_VALUES.fullmatch(finding.code) or span not in at_literals:
-            at_literals[span] = len(found)
-            found.append(_moved(finding, span))
+    at_literals: dict[tuple[str, Span], int] = {}
+    for finding in findings:
+        trail = common_trail(groups[finding.code, finding.span])
+        key = (finding.code, trail[-1]) if trail else None
+        if key is None or not _OF_VALUES.fullmatch(finding.code) or key not in at_literals:
+            if key is not None:
+                at_literals[key] = len(found)
+            found.append(_moved(finding, trail) if trail else finding)
         else:  # one value causes several findings
-            first = found[at_literals[span]]
+            first = found[at_literals[key]]
             chains = tuple(dict.fromkeys((*first.chains, *finding.chains)))
-            found[at_literals[span]] = Finding(**{**first.__dict__, "chains": chains})
+            found[at_literals[key]] = Finding(**{**first.__dict__, "chains": chains})
     return found
 
 
-def _literal(finding: Finding, model: Model, sources: ValueSources) -> Span | None:
-    """Return the place of the literal that makes a value wrong; None if several literals may be the cause."""
+def common_trail(trails: Sequence[Trail]) -> Trail:
+    """Return the places that several values have in common, from the use on; all places if the last is the same."""
+    if len({each[-1:] for each in trails}) == 1:
+        return trails[0]
+    shared = 0
+    while all(len(each) > shared and each[shared] == trails[0][shared] for each in trails):
+        shared += 1
+    return trails[0][:shared]
+
+
+def _trail(span: Span | None) -> Trail:
+    return () if span is None else (span,)
+
+
+def _literal(finding: Finding, model: Model, sources: ValueSources) -> Trail:
+    """Return the places up to the literal that makes a value wrong; empty if several literals may be the cause."""
     text = _text(finding, model) if _OF_VALUES.fullmatch(finding.code) else ""
     if text and "${" not in text:
         tag = model.tag(finding.span.start)
         text = model.document(finding.file).source.text[tag.start : tag.close_end] if tag is not None else ""
     if "${" not in text or "urdfkit:" in model.document(finding.file).source.text:
-        return None
-    places: set[Span] = set()
+        return ()
+    trails: list[Trail] = []
     for chain in finding.chains or ((),):
         found = sources.of_text(text, finding.span, chain)
         cause = _cause(found, text, finding) if found is not None else None
         if cause is None:
-            return None
-        places.add(cause)
-    return places.pop() if len(places) == 1 else None
+            return ()
+        is_computed = re.sub(r"\$\{\s*\w+\s*\}", "", text).count("${") > 0
+        trails.append((*(() if is_computed else cause.trail[:1]), cause.span))
+    return common_trail(trails)
 
 
-def _cause(found: set[ValueSource], text: str, finding: Finding) -> Span | None:
-    """Return the place of the one literal that is not a sign, that the message names, or that exceeds all others."""
+def _cause(found: set[ValueSource], text: str, finding: Finding) -> ValueSource | None:
+    """Return the one literal that is not a sign, that the message names, or that exceeds all others."""
     signs = ("0", "1", "-1", "true", "false", "True", "False", "")
-    values = {each for each in found if each.text not in signs} or found
+    values = list({each.span: each for each in found if each.text not in signs}.values()) or list(found)
     outside = [float(each) for each in re.findall(_NUMBER, re.sub(r"\$\{[^{}]*\}", " ", text))]
     if len(values) == 1 and not any(outside):
-        return next(iter(values)).span
-    named = {each.span for each in values if _is_named(each.text, finding.message)}
+        return values[0]
+    named = [each for each in values if _is_named(each.text, finding.message)]
     if len(named) == 1:
-        return named.pop()
-    sizes = sorted((abs(size), each.span) for each in values if (size := number(each.text)) is not None)
+        return named[0]
+    sizes = sorted((abs(size), each) for each in values if (size := number(each.text)) is not None)
     if len(sizes) == len(values) > 0:
         others = max([*(size for size, _ in sizes[:-1]), *map(abs, outside)], default=0.0)
         return sizes[-1][1] if sizes[-1][0] > _FACTOR * others else None
     return None
 
 
-def _moved(finding: Finding, span: Span) -> Finding:
+def _moved(finding: Finding, trail: Trail) -> Finding:
     name = f"macro `{finding.chains[0][0].macro}` uses it" if finding.chains else "it is used"
     used = f"{name} at {finding.file}:{finding.line}:{finding.column}"
     help = f"{finding.help}; {used}" if finding.help else used
-    return type(finding)(**{**finding.__dict__, "span": span, "help": help})
+    return type(finding)(**{**finding.__dict__, "span": trail[-1], "help": help, "trail": (finding.span, *trail)})
 
 
 def _written(finding: Finding, model: Model) -> Span | None:

@@ -209,8 +209,9 @@ class Checker:
             findings += self.runner.findings_of_robot(model, entry)
         if model.target != "urdfkit" and findings and (model.expanded.properties or model.expanded.macros):
             from urdfkit.lint.engine.call_values import at_calls
+            from urdfkit.lint.engine.fault_causes import at_missing_definitions
 
-            findings = at_calls(findings, model)
+            findings = at_missing_definitions(at_calls(findings, model), model)
         if model.target != "urdfkit":  # whose repairs are findings
             from urdfkit.lint.engine.consequences import without_consequences
 

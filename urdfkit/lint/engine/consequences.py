@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
 
-    Relation = Literal["line", "name", "meant", "call", "robot"]
+    Relation = Literal["line", "name", "names", "meant", "call", "robot"]
     Pattern = tuple[str, str]
     """Code of a rule, and `Finding.kind`; an empty kind matches all findings of the rule."""
 
@@ -30,6 +30,32 @@ _PLACES = (
     "X128",
 )
 """Codes of findings on places, sizes and directions, which explain why links are in each other."""
+
+_ON_PLACES = (
+    "I519",
+    "J421",
+    "J424",
+    "J427",
+    "J428",
+    "J429",
+    "K970",
+    "S901",
+    "S904",
+    "S907",
+    "S908",
+    "S909",
+    "S910",
+    "S911",
+    "S915",
+    "S918",
+    "S919",
+    "S920",
+    "S921",
+)
+"""Codes of findings on places of links, which a robot with a broken tree or unknown values does not have."""
+
+_OF_TREE = ("T201", "T202", "T205", "T206", "X103", "X104", "X124")
+"""Codes of findings on links without a place, and on values that are unknown."""
 
 _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
 """Findings on a robot whose package.xml names the build system of the other version of ROS."""
@@ -172,14 +198,27 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T207", ""), "robot", ("M108", "joint")),
     (("T207", ""), "robot", ("Z802", "undefined")),
     (("Z817", ""), "robot", ("K969", "topic")),
+    (("J405", ""), "name", ("J420", "")),
+    (("J408", ""), "line", ("S915", "")),
+    (("S909", ""), "robot", ("K970", "")),
+    (("G619", ""), "robot", ("S910", "")),
+    (("G619", ""), "robot", ("K970", "")),
+    (("I514", ""), "robot", ("J429", "")),
+    (("T206", "call"), "robot", ("T207", "")),
+    (("T206", ""), "robot", ("J416", "")),
+    (("T202", ""), "names", ("T201", "")),
+    (("X103", ""), "line", ("X104", "")),
+    (("X128", ""), "robot", ("C707", "undefined")),
+    (("X128", ""), "robot", ("K959", "")),
+    *(((code, ""), "robot", (other, "")) for code in _OF_TREE for other in _ON_PLACES),
     *(((code, ""), "robot", ("S920", "")) for code in _PLACES),
     *(((code, ""), "robot", ("S921", "")) for code in (*_PLACES, "S920")),
 )
 """Cause, relation and consequence.
 
-The relation is what both have in common: the line, the link, the joint or one of `Finding.names`, the macro call or a
-call inside of it, or only the robot; ``meant`` is the name that the cause suggests and that the consequence misses, or
-that the cause has and the consequence suggests.
+The relation is what both have in common: the line, the link, the joint or one of `Finding.names`, one of these names
+alone (``names``), the macro call or a call inside of it, or only the robot; ``meant`` is the name that the cause
+suggests and that the consequence misses, or that the cause has and the consequence suggests.
 """
 
 _WITH_FIX = (("E014", "E009"), ("I503", "I507"))
@@ -225,4 +264,6 @@ def _common(finding: Finding, relation: Relation, *, is_effect: bool = False) ->
         return {name for name in (*names, finding.meant) if name}
     if relation == "robot":
         return ("robot",)
+    if relation == "names":
+        return finding.names
     return {name for name in (finding.link, finding.joint, *finding.names) if name}

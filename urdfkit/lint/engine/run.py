@@ -145,13 +145,33 @@ class Sources(dict[str, "Source"]):
 def merged(findings: Iterable[Finding]) -> list[Finding]:
     """Return the findings sorted by position; merge findings of several expansions of the same source text."""
     groups: dict[tuple[str, Span], list[_MergedFinding]] = {}
-    for finding in findings:
+    for finding in _at_common_places(list(findings)):
         merged_here = groups.setdefault((finding.code, finding.span), [])
         if not any(one.add(finding) for one in merged_here):
             merged_here.append(_MergedFinding(finding))
     return sorted(
         (one.finding() for group in groups.values() for one in group), key=lambda f: (f.span, f.code, f.message)
     )
+
+
+def _at_common_places(findings: list[Finding]) -> Iterable[Finding]:
+    """Yield the findings; those on one expression in several robots are at the last place that their values share.
+
+    Where the values of one robot only show which place is wrong, that place is wrong in all robots.
+    """
+    uses: dict[tuple[str, Span], set[tuple[Span, ...]]] = {}
+    for finding in findings:
+        if finding.trail:
+            uses.setdefault((finding.code, finding.trail[0]), set()).add(finding.trail)
+    for finding in findings:
+        trails = list(uses.get((finding.code, finding.trail[0] if finding.trail else finding.span), ()))
+        if not trails:
+            yield finding
+            continue
+        from urdfkit.lint.engine.call_values import common_trail
+
+        span = common_trail(trails)[-1]
+        yield finding if span == finding.span else Finding(**{**finding.__dict__, "span": span, "trail": ()})
 
 
 class _MergedFinding:

@@ -40,6 +40,11 @@ class NeighbouringDescriptions:
             self._patterns[tag] = re.compile("|".join(self._names(tag)) or r"(?!)")
         return self._patterns[tag].fullmatch(name) is not None
 
+    def mention(self, text: str) -> bool:
+        """Return whether one of them that the robot does not include contains a text."""
+        own = {str(Path(file).absolute()) for file in self._expanded.sources}
+        return any(text in each for path, each in self._texts.items() if path not in own)
+
     @cached_property
     def unresolved_package(self) -> str:
         """A package that they include files from and that is not found here; empty if all are found."""

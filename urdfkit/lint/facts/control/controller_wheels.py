@@ -7,7 +7,7 @@ from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
 from urdfkit.lint.facts.control.parameter_values import CORNER
-from urdfkit.lint.facts.control.yaml_tree import Node, number_of, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, number_of, yamls_of_robot
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.description_files import descriptions
@@ -15,7 +15,7 @@ from urdfkit.lint.project.description_files import descriptions
 
 def diff_drives(model: Model) -> Iterator[tuple[Source, ControllerSettings]]:
     """Yield the controllers for differential drives in the YAML files of these packages."""
-    for source in yamls(model):
+    for source in yamls_of_robot(model):
         if "DiffDriveController" in source.text:
             for controller in settings(source):
                 if controller.kind == "diff_drive_controller/DiffDriveController":
@@ -27,7 +27,7 @@ def steering_wheels(model: Model) -> Iterator[tuple[Source, Node, str, list[Whee
 
     Source: steering_controllers_library (steering_controllers_library.yaml) of Humble to Rolling.
     """
-    for source in yamls(model):
+    for source in yamls_of_robot(model):
         for controller in settings(source) if "_steering_controller" in source.text else ():
             if "_steering_controller/" not in controller.kind:
                 continue
@@ -46,7 +46,7 @@ def mecanum_wheels(model: Model) -> Iterator[tuple[Source, Node, str, list[Wheel
     Source: mecanum_drive_controller (mecanum_drive_controller.yaml) of Jazzy to Rolling.
     """
     parents = {joint.parent for joint in model.robot.joints}
-    for source in yamls(model):
+    for source in yamls_of_robot(model):
         for controller in settings(source) if "MecanumDriveController" in source.text else ():
             if controller.kind != "mecanum_drive_controller/MecanumDriveController":
                 continue
@@ -63,7 +63,7 @@ def mecanum_defects(model: Model) -> Iterator[tuple[Source, Node, str, str, str]
 
     Source: mecanum_drive_controller (userdoc.rst: half of the wheelbase plus half of the track), Jazzy to Rolling.
     """
-    for source in yamls(model):
+    for source in yamls_of_robot(model):
         for controller in settings(source) if "MecanumDriveController" in source.text else ():
             named = {
                 key.text.removesuffix(CORNER): value for key, value in controller.group.entries if CORNER in key.text

@@ -72,6 +72,19 @@ def yamls(model: Model) -> Iterator[Source]:
     yield from (source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml")))
 
 
+def yamls_of_robot(model: Model) -> Iterator[Source]:
+    """Yield these files without parameters that only another robot of a family loads.
+
+    The plugins of this robot load other files, and another description names the left-out files.
+    """
+    blocks = (plugin.element for block in model.robot.gazebo for plugin in block.plugins)
+    loaded = {each.text.rpartition("/")[2].strip() for one in blocks for each in one.find_all("parameters")}
+    for source in yamls(model):
+        name = source.file.rpartition("/")[2]
+        if not loaded or name in loaded or not model.neighbouring_descriptions.mention(f"/{name}"):
+            yield source
+
+
 def documents(source: Source) -> tuple[Node, ...]:
     """Return the documents of a YAML file, up to the first syntax error."""
     return documents_in(source.text)[0]

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
-from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls_of_robot
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -45,7 +45,7 @@ class Axles:
 
 def axles(model: Model) -> Iterator[Axles]:
     """Yield the steering controllers whose joints all exist."""
-    for source in yamls(model):
+    for source in yamls_of_robot(model):
         for controller in settings(source) if "_steering_controller" in source.text else ():
             if "_steering_controller/" not in controller.kind:
                 continue
@@ -121,7 +121,7 @@ def tight_turns(model: Model) -> Iterator[tuple[Source, Node, str]]:
     if not radii:
         return
     radius = min(radii)
-    for source in yamls(model):
+    for source in yamls_of_robot(model):
         for group in (each for each in nodes(source) if each.kind == "group"):
             for name in ("minimum_turning_radius", "min_turning_r", "min_turning_radius"):
                 node = group.find(name)

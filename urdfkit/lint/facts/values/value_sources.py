@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     Keys = tuple[str | int, ...]
 
 _EXPRESSION = re.compile(r"\$\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
+_ALONE = re.compile(r"\s*\$\{\s*[A-Za-z_]\w*\s*\}\s*")
 _ARGUMENT = re.compile(r"\$\(arg\s+([^\s)]+)\s*\)")
 _DEFAULT = r"(?<!\S){name}:?=(?:\^\|?)?('[^']*'|\"[^\"]*\"|\$\{{[^{{}}]*\}}|\S*)"
 _YAML = (".yaml", ".yml", ".json")
@@ -41,14 +42,22 @@ class ValueSource:
     Attributes:
         span: the attribute, default or YAML value.
         text: the literal.
+        trail: the properties and arguments that compute or select the value, from the expression on.
     """
 
     span: Span
     text: str
+    trail: tuple[Span, ...] = ()
 
 
 class UnresolvedError(Exception):
-    """The source of a value cannot be found."""
+    """The source of a value cannot be found.
+
+    Attributes:
+        lacking: the group or list of a YAML file that lacks the key, and the key.
+    """
+
+    lacking: tuple[Settings, str | int] | None = None
 
 
 class ValueSources:
@@ -77,6 +86,16 @@ class ValueSources:
             return set(self._in_text(text, span, tuple(calls), 0))
         except (UnresolvedError, SyntaxError, ValueError, RecursionError):
             return None
+
+    def lacking(self, text: str, span: Span, calls: Sequence[Expansion]) -> tuple[Settings, str | int] | None:
+        """Return the group or list of a YAML file that lacks an item which a text uses, and the key of the item."""
+        try:
+            list(self._in_text(text, span, tuple(calls), 0))
+        except UnresolvedError as error:
+            return error.lacking
+        except (SyntaxError, ValueError, RecursionError):
+            return None
+        return None
 
     def _in_text(self, text: str, span: Span, calls: Calls, steps: int) -> Iterator[ValueSource]:
         if steps > _MAX_STEPS:
@@ -112,6 +131,12 @@ class ValueSources:
         if found is None:
             raise UnresolvedError
         text, span, outer = found
+        for each in self._of_definition(text, span, outer, keys, steps):
+            is_computed = not keys and each.span != span and not _ALONE.fullmatch(text)
+            yield ValueSource(each.span, each.text, (span, *each.trail)) if is_computed else each
+
+    def _of_definition(self, text: str, span: Span, outer: Calls, keys: Keys, steps: int) -> Iterator[ValueSource]:
+        """Yield the sources of the text of a property or argument."""
         alone = _EXPRESSION.fullmatch(text.strip())
         if alone is not None and (keys or _path_of(alone[1]) is not None):
             yield from self._of_keys(ast.parse(alone[1].strip(), mode="eval").body, keys, span, outer, steps)
@@ -222,7 +247,18 @@ class ValueSources:
             paths = [path for path in paths if all(end in str(path) for end in ends)]
         found = [setting for path in paths if (setting := self._setting(path, keys)) is not None]
         if len(found) != 1 or found[0].value is None:
-            raise UnresolvedError
+            error = UnresolvedError()
+            if len(paths) == 1:
+                error.lacking = next(
+                    (
+                        (group, keys[at])
+                        for at in range(len(keys))
+                        if self._setting(paths[0], keys[: at + 1]) is None
+                        and (group := self._setting(paths[0], keys[:at])) is not None
+                    ),
+                    None,
+                )
+            raise error
         at, value = found[0].position, found[0].value
         return ValueSource(Span(at.file, at.line, at.column, at.line, at.column + len(value)), value)
 

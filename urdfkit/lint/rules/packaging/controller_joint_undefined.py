@@ -66,14 +66,13 @@ class ControllerJointUndefined(RobotRule):
 
     def _undefined(self, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import joints
+        from urdfkit.lint.facts.control.yaml_tree import yamls_of_robot
         from urdfkit.lint.fix_builders import nearest
 
         joints_by_name = model.robot.joint_by_name
         if not joints_by_name:
             return
-        for source in model.related_files.values():
-            if not source.file.endswith((".yaml", ".yml")):
-                continue
+        for source in yamls_of_robot(model):
             references = list(joints(source))
             # A chained controller writes the name of the other controller before that of the joint.
             undefined = [each for each in references if each.name.rpartition("/")[2] not in joints_by_name]

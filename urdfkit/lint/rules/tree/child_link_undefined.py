@@ -43,6 +43,7 @@ class ChildLinkUndefined(RobotRule):
                 f"undefined child link `{name}` of joint `{joint.name}`" + Suggestion(meant, name),
                 attribute="link",
                 joint=joint.name,
+                names=(name,),
                 fix=new_value(model, element, "link", meant, "unsafe", f"Replace with `{meant}`") if meant else None,
             )
             is_repaired = model.target == "urdfkit"

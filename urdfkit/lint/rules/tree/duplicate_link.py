@@ -39,7 +39,7 @@ class DuplicateLink(RobotRule):
         for link, first in pairs:
             here, there = link.element.origin, first.element.origin
             if here.position == there.position and here.expansions and here.expansions != there.expansions:
-                calls.setdefault(here.expansions[-1], []).append(link)
+                calls.setdefault(_different_call(here.expansions, there.expansions), []).append(link)
         for call, links in calls.items():
             if len(links) > 1:
                 yield self._of_call(model, call, links)
@@ -66,7 +66,13 @@ class DuplicateLink(RobotRule):
             model.span(call.position),
             message,
             link=links[0].name,
+            kind="call",
             help="pass another name or prefix",
             chains=tuple(link.element.origin.expansions for link in links),
             names=tuple(name for one in made for name in (one, *mirrored(one))),
         )
+
+
+def _different_call(calls: tuple[Expansion, ...], others: tuple[Expansion, ...]) -> Expansion:
+    """Return the outermost macro call that is not around the other element."""
+    return next((call for call in reversed(calls) if call not in others), calls[-1])
