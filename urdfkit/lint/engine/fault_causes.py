@@ -32,12 +32,12 @@ def at_missing_definitions(findings: list[Finding], model: Model) -> list[Findin
     causes = _Causes(model, ValueSources(model))
     found: list[Finding] = []
     places: dict[tuple[str, Span | str | None], int] = {}
-    is_known = {each.names[:1] for each in findings if each.code in _CODES and not _is_parameter(each, model)}
+    has_cause = {each.names[:1] for each in findings if each.code in _CODES and not _is_parameter(each, model)}
     for finding in findings:
         if finding.code not in _CODES:
             found.append(finding)
             continue
-        if is_known and _is_parameter(finding, model):
+        if has_cause and _is_parameter(finding, model):
             continue
         span, help = causes.of(finding)
         key = (finding.code, finding.names[0] if finding.code == "X104" and finding.names else span)
