@@ -277,18 +277,34 @@ def add_time_limit(parser: argparse.ArgumentParser) -> None:
 
     parser.add_argument(
         "--time-limit",
-        type=_seconds,
+        type=seconds(0.0, 1e9),
         default=TIME_LIMIT,
         metavar="S",
         help=f"stop reading a file after S seconds of CPU (default: {TIME_LIMIT:g}; 0: no limit)",
     )
 
 
-def _seconds(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value < 1e9:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a number of seconds")
-    return value
+def seconds(least: float, most: float, kind: str = "number of seconds") -> Callable[[str], float]:
+    """Return a parser of a number of seconds from `least` to `most`; its error states the kind of number."""
+
+    def read(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = -1.0
+        if not least <= value <= most:
+            raise argparse.ArgumentTypeError(f"`{text}` is not a {kind}")
+        return value
+
+    return read
+
+
+def count(kind: str = "whole number of at least 1") -> Callable[[str], int]:
+    """Return a parser of a whole number of at least 1; its error states the kind of number."""
+
+    def read(text: str) -> int:
+        if not text.isdecimal() or int(text) < 1:
+            raise argparse.ArgumentTypeError(f"`{text}` is not a {kind}")
+        return int(text)
+
+    return read

@@ -28,7 +28,7 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Surroundings
 from urdfkit.sim.snapshots.copying import Copyable
 from urdfkit.sim.snapshots.snapshot import Snapshots
-from urdfkit.sim.state.arguments import number, three
+from urdfkit.sim.state.arguments import number, vector
 from urdfkit.sim.state.notes import Notes
 from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.world.gazebo_services import ModelStates, listen
@@ -331,7 +331,8 @@ class Simulator(Copyable):
         Raises:
             SimulationError: the robot has no drive, or a velocity is not three numbers.
         """
-        linear, angular = three(linear, "the linear velocity", "m/s"), three(angular, "the angular velocity", "rad/s")
+        linear = vector(linear, 3, "the linear velocity", "m/s", finite=False)
+        angular = vector(angular, 3, "the angular velocity", "rad/s", finite=False)
         if not self.command_topics:
             raise SimulationError(f"robot `{self.name}` has no drive that accepts velocity commands")
         for topic in self.command_topics:

@@ -25,11 +25,6 @@ class FileWatch:
         self.unsettled = False
         self.follow(files, optional)
 
-    @property
-    def files(self) -> tuple[Path, ...]:
-        """The watched files."""
-        return tuple(self._settled)
-
     def follow(self, files: Iterable[Path], optional: Iterable[Path] = ()) -> None:
         """Watch these files from now on, starting from their current state."""
         self._needed = tuple(dict.fromkeys(files))

@@ -14,6 +14,7 @@ from urdfkit.app.page import note, require_packages, require_page
 from urdfkit.cli.kinematics.ik.targets import poses_of_file
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
+from urdfkit.cli.parser import count
 from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
@@ -57,7 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--resolution", type=positive, default=0.05, metavar="M", help="edge of a cell [m] (default: 0.05)")
     add(
         "--orientations",
-        type=_count,
+        type=count("number of orientations"),
         default=50,
         metavar="N",
         help="number of orientations, spread evenly (default: 50)",
@@ -238,9 +239,3 @@ def _cone(text: str) -> tuple[tuple[float, float, float], float]:
     if not comma or not 0.0 <= degrees <= 180.0:
         raise argparse.ArgumentTypeError(f"`{text}` must be AXIS,DEG with an angle from 0 to 180, such as -z,30")
     return _axis(axis), degrees
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a number of orientations")
-    return int(text)

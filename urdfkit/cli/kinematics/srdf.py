@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.page import require_page
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
+from urdfkit.cli.parser import count
 from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.robot_arguments.robot_loading import add_robot_options, load_with_notes, named_robot, repairs_as_json
 from urdfkit.cli.sim.option_values import seed
@@ -47,7 +48,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="planning group of the chain from BASE to TIP, instead of automatic groups (repeatable)",
     )
     parser.add_argument(
-        "--samples", type=_count, default=100_000, metavar="N", help="random configurations (default: 100000)"
+        "--samples",
+        type=count("number of configurations"),
+        default=100_000,
+        metavar="N",
+        help="random configurations (default: 100000)",
     )
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the SRDF (default: standard output)")
@@ -169,9 +174,3 @@ def _group(text: str) -> tuple[str, str, str]:
     if not (name and equals and base and colon and tip):
         raise argparse.ArgumentTypeError(f"`{text}` must be NAME=BASE:TIP")
     return name, base, tip
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a number of configurations")
-    return int(text)

@@ -6,6 +6,7 @@ Each call of a tool runs in a process of its own, which is limited in time and m
 import argparse
 from pathlib import Path
 
+from urdfkit.cli.parser import seconds
 from urdfkit.errors import MissingDependencyError, ResourceError
 
 TIME_LIMIT = 60.0
@@ -21,21 +22,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--allow-fixes", action="store_true", help="let the tool `fix` write files in the folder")
     parser.add_argument(
         "--time-limit",
-        type=_seconds,
+        type=seconds(1.0, 3600.0, "number of seconds from 1 to 3600"),
         default=TIME_LIMIT,
         metavar="S",
         help=f"stop a call after S seconds (default: {TIME_LIMIT:g})",
     )
-
-
-def _seconds(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 1.0 <= value <= 3600.0:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a number of seconds from 1 to 3600")
-    return value
 
 
 def run(arguments: argparse.Namespace) -> int:

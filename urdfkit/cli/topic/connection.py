@@ -100,13 +100,6 @@ def is_message(word: str) -> bool:
     return word.startswith(("{", "["))
 
 
-def positive(text: str) -> int:
-    """Parse a whole number of at least 1, for an option."""
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a whole number of at least 1")
-    return int(text)
-
-
 async def topics(client: Client) -> list[Row]:
     """Return the topics, sorted by name; wait for a simulation that is starting, and report that once.
 

@@ -9,7 +9,8 @@ import re
 from contextlib import aclosing
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.topic.connection import find_topic, messages, positive, topics
+from urdfkit.cli.parser import count
+from urdfkit.cli.topic.connection import find_topic, messages, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ _STEP = re.compile(r"\.?([A-Za-z_]\w*)|\[(\d+)\]")
 def configure(parser: argparse.ArgumentParser, _name: str) -> None:
     """Add the arguments."""
     parser.add_argument("topic", metavar="TOPIC", help="name of the topic")
-    parser.add_argument("-n", "--number", type=positive, metavar="N", help="exit after N messages")
+    parser.add_argument("-n", "--number", type=count(), metavar="N", help="exit after N messages")
     parser.add_argument("--once", action="store_true", help="exit after one message")
     parser.add_argument(
         "--field", metavar="PATH", help="print only this field, such as pose.pose.position or ranges[0]"

@@ -8,7 +8,8 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
-from urdfkit.cli.topic.connection import find_topic, is_message, positive, topics
+from urdfkit.cli.parser import count
+from urdfkit.cli.topic.connection import find_topic, is_message, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def configure(parser: argparse.ArgumentParser, _name: str) -> None:
     often = parser.add_mutually_exclusive_group()
     often.add_argument("-r", "--rate", type=_rate, metavar="RATE", help=f"messages per second (default: {RATE:g})")
     often.add_argument("--once", action="store_true", help="publish one message and exit")
-    parser.add_argument("-n", "--number", type=positive, metavar="N", help="exit after N messages")
+    parser.add_argument("-n", "--number", type=count(), metavar="N", help="exit after N messages")
     parser.epilog = (
         "examples:\n"
         "  urdfkit topic pub /cmd_vel geometry_msgs/Twist '{linear: {x: 0.5}}' -r 10\n"

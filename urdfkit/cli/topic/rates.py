@@ -15,7 +15,8 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.topic.connection import find_topic, messages, positive, topics
+from urdfkit.cli.parser import count
+from urdfkit.cli.topic.connection import find_topic, messages, topics
 
 if TYPE_CHECKING:
     from urdfkit.view.protocol.client import Client
@@ -93,13 +94,13 @@ def configure(parser: argparse.ArgumentParser, name: str) -> None:
     parser.add_argument(
         "-w",
         "--window",
-        type=positive,
+        type=count(),
         default=WINDOWS[name],
         metavar="N",
         help=f"measure the last N messages (default: {WINDOWS[name]})",
     )
     parser.add_argument("--wall-time", action="store_true", help="use wall-clock time instead of simulated time")
-    parser.add_argument("-n", "--number", type=positive, metavar="N", help="exit after N reports, one per second")
+    parser.add_argument("-n", "--number", type=count(), metavar="N", help="exit after N reports, one per second")
     parser.add_argument("--once", action="store_true", help="exit after one report")
     parser.add_argument("--json", action="store_true", help="print each report as JSON on one line")
     parser.epilog = f"examples:\n  urdfkit topic {name} /odom\n  urdfkit topic {name} /scan --window 50 --once"

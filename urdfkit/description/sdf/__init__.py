@@ -8,7 +8,7 @@ from urdfkit.description.sdf.model_library import model_names, world_names
 from urdfkit.description.sdf.reader.load import load_model, load_world, model_of_text
 from urdfkit.description.sdf.shapes import Cone, Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
 from urdfkit.description.sdf.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
-from urdfkit.description.sdf.world_edits import add_model, move_model, remove_model
+from urdfkit.description.sdf.world_edits import add_model, remove_model
 from urdfkit.description.sdf.writer import model_to_sdf, save_world, to_sdf
 
 __all__ = [
@@ -39,7 +39,6 @@ __all__ = [
     "model_names",
     "model_of_text",
     "model_to_sdf",
-    "move_model",
     "remove_model",
     "save_world",
     "to_sdf",

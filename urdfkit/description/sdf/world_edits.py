@@ -1,32 +1,23 @@
-"""Edit worlds: return a copy with a model added, removed or moved."""
+"""Edit worlds: return a copy with a model added or removed."""
 
 from dataclasses import replace
 
 from urdfkit.description.sdf.model import WorldModel
 from urdfkit.description.sdf.world import World
-from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import ResourceError, did_you_mean
 
 
-def add_model(world: World, model: WorldModel, *, name: str = "", pose: Pose | None = None) -> World:
+def add_model(world: World, model: WorldModel) -> World:
     """Return a world with one more model.
-
-    Args:
-        world: the original world.
-        model: the model to add.
-        name: name in the world; the name of `model` when empty.
-        pose: pose in the world; the pose of `model` when None.
 
     Raises:
         ResourceError: the name already exists; suggests an unused name.
     """
-    called = name or model.name
-    taken = set(_names(world))
-    if called in taken:
-        free = next(f"{called}_{number}" for number in range(1, len(taken) + 2) if f"{called}_{number}" not in taken)
-        raise ResourceError(f"world `{world.name}` already has a model `{called}`; name it `{free}`")
-    added = replace(model, name=called, pose=model.pose if pose is None else pose)
-    return replace(world, models=(*world.models, added))
+    name, taken = model.name, set(_names(world))
+    if name in taken:
+        free = next(f"{name}_{number}" for number in range(1, len(taken) + 2) if f"{name}_{number}" not in taken)
+        raise ResourceError(f"world `{world.name}` already has a model `{name}`; name it `{free}`")
+    return replace(world, models=(*world.models, model))
 
 
 def remove_model(world: World, name: str) -> World:
@@ -46,26 +37,6 @@ def remove_model(world: World, name: str) -> World:
         models=tuple([each for each in world.models if each.name != name]),
         robots=tuple([each for each in world.robots if each.name != name]),
         lights=tuple([each for each in world.lights if each.name != name]),
-    )
-
-
-def move_model(world: World, name: str, pose: Pose) -> World:
-    """Return a world with one of its models or robots moved.
-
-    Args:
-        world: the original world.
-        name: name of the model.
-        pose: new pose in the world.
-
-    Raises:
-        ResourceError: no entity has that name; names the most similar entity.
-    """
-    if name not in _names(world):
-        raise _unknown(world, name, _names(world))
-    return replace(
-        world,
-        models=tuple([replace(each, pose=pose) if each.name == name else each for each in world.models]),
-        robots=tuple([replace(each, pose=pose) if each.name == name else each for each in world.robots]),
     )
 
 

@@ -27,8 +27,8 @@ def number(value: Any, what: str, unit: str) -> float:
         raise SimulationError(f"{what} is {value!r}; it must be a number [{unit}]") from None
 
 
-def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
-    """Return `length` finite numbers.
+def vector(values: Any, length: int, what: str, unit: str, *, finite: bool = True) -> tuple[float, ...]:
+    """Return `length` numbers, by default finite ones.
 
     Raises:
         SimulationError: `values` has another length or contains something else.
@@ -37,8 +37,9 @@ def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
         found = tuple(float(value) for value in values)
     except (TypeError, ValueError):
         found = ()
-    if len(found) != length or not all(map(isfinite, found)):
-        raise SimulationError(f"{what} is {values!r}; it must be {COUNTS[length]} finite numbers [{unit}]")
+    if len(found) != length or (finite and not all(map(isfinite, found))):
+        kind = "finite numbers" if finite else "numbers"
+        raise SimulationError(f"{what} is {values!r}; it must be {COUNTS[length]} {kind} [{unit}]")
     return found
 
 
@@ -51,21 +52,6 @@ def check_size(values: Sequence[float], what: str, unit: str) -> None:
     largest = max(values, key=abs)
     if abs(largest) > LARGEST:
         raise SimulationError(f"{what} contains {largest:g}; at most {LARGEST:g} can be simulated [{unit}]")
-
-
-def three(values: Any, what: str, unit: str) -> tuple[float, ...]:
-    """Return three numbers, finite or not.
-
-    Raises:
-        SimulationError: `values` has another length or contains something else.
-    """
-    try:
-        found = tuple(float(value) for value in values)
-    except (TypeError, ValueError):
-        found = ()
-    if len(found) != 3:
-        raise SimulationError(f"{what} is {values!r}; it must be three numbers [{unit}]")
-    return found
 
 
 class ByName(dict[str, Found]):

@@ -16,7 +16,7 @@ from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.construction.rigid_bodies import parts_of
 from urdfkit.sim.engine import Engine, FreeBody
-from urdfkit.sim.state.arguments import nearest
+from urdfkit.sim.state.arguments import nearest, vector
 from urdfkit.sim.state.quaternion import product, rotate
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.world_builder import WorldBuilder
@@ -71,8 +71,10 @@ class ExternalForces:
         """Push a body or a link from now on; pushes add up. See `LiveWorld.push`."""
         engine = self._builder.engine
         target, steps = target_of(self._builder, name), _steps(for_seconds, engine.dt)
-        values = _three("force", force), _three("torque", torque), _three("point of attack", at)
-        self.acting.append(Push(target, *values, engine.steps + steps))
+        force = vector(force, 3, "the force of a push", "N")
+        torque = vector(torque, 3, "the torque of a push", "N·m")
+        at = vector(at, 3, "the point of attack of a push", "m")
+        self.acting.append(Push(target, force, torque, at, engine.steps + steps))
 
     def release(self, name: str) -> None:
         """End all pushes on a body or link.
@@ -217,13 +219,3 @@ def _on_link(robot: SimulatedRobot, link: str, push: Push, dt: float) -> Array:
     arm = matmul(data.oMf[frame].rotation, np.array(push.at))
     efforts: Array = matmul(jacobian.T, np.concatenate([force, np.array(torque) + np.cross(arm, force)]))
     return efforts
-
-
-def _three(what: str, values: Sequence[float]) -> tuple[float, ...]:
-    try:
-        found = tuple(float(value) for value in values)
-    except (TypeError, ValueError):
-        found = ()
-    if len(found) != 3 or not all(map(isfinite, found)):
-        raise SimulationError(f"the {what} of a push is {values!r}; it must be three finite numbers")
-    return found
