@@ -21,19 +21,22 @@ FAR = 1e5
 """From here on [rad] whole turns are taken off first."""
 TURN = 2.0 * math.pi
 
+Chain = tuple[Floats, Integers, int, int]
+"""A chain: its steps, `STEP` numbers each, then `END`; the index of each step's variable, which are numbered in the
+order of their first steps; the number of steps, and the number of variables."""
+
 
 @inlined
-def place(steps: Floats, variables: Integers, count: int, q: Floats, pose: Floats, axes: Floats) -> None:
+def place(chain: Chain, q: Floats, pose: Floats, axes: Floats) -> None:
     """Compute the pose of the tip, and the axis and origin of each step, in the base.
 
     Args:
-        steps: `STEP` numbers per step, then `END`.
-        variables: index of each step's variable; the variables are numbered in the order of their first steps.
-        count: number of steps.
+        chain: see `Chain`.
         q: the configuration.
         pose: written: rotation (9, by rows) and translation (3) of the tip.
         axes: written: `AXIS` numbers per step.
     """
+    steps, variables, count, _ = chain
     angles = stack(8)
     sines = stack(8)
     cosines = stack(8)
@@ -119,28 +122,18 @@ def place(steps: Floats, variables: Integers, count: int, q: Floats, pose: Float
 
 
 @inlined
-def geometric_jacobian(
-    steps: Floats,
-    variables: Integers,
-    count: int,
-    pose: Floats,
-    axes: Floats,
-    row: int,
-    column: int,
-    jacobian: Floats,
-) -> None:
+def geometric_jacobian(chain: Chain, pose: Floats, axes: Floats, row: int, column: int, jacobian: Floats) -> None:
     """Compute the Jacobian at the tip in the axes of the base, linear rows first.
 
     Args:
-        steps: see `place`.
-        variables: see `place`.
-        count: number of steps.
+        chain: see `Chain`.
         pose: see `place`.
         axes: see `place`.
         row: numbers in memory from one row to the next.
         column: numbers in memory from the column of one variable to that of the next.
         jacobian: written: six rows, one column per variable.
     """
+    steps, variables, count, _ = chain
     cleared = 0
     for k in range(count):
         turn = steps[STEP * k + 12]

@@ -1,7 +1,7 @@
 """Levenberg-Marquardt within joint limits, from one configuration to the nearest minimum of the pose error."""
 
-from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, geometric_jacobian, place, rotation_vector
-from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, compiled, inlined, shifted, stack
+from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, Chain, geometric_jacobian, place, rotation_vector
+from urdfkit.kinematics.serial.kernel.compilation import Floats, compiled, inlined, shifted, stack
 from urdfkit.kinematics.serial.kernel.damped_step import damped_step
 
 LIMIT = 6
@@ -40,10 +40,7 @@ def pose_error(goal: Floats, pose: Floats, linear: float, angular: float, error:
 
 @compiled
 def descend(
-    steps: Floats,
-    variables: Integers,
-    count: int,
-    size: int,
+    chain: Chain,
     limits: Floats,
     goal: Floats,
     q: Floats,
@@ -59,10 +56,7 @@ def descend(
     """Move a configuration to a minimum of the error; return squares of distance and angle, and the weighted cost.
 
     Args:
-        steps: see `chain_forward.place`.
-        variables: see `chain_forward.place`.
-        count: number of steps.
-        size: number of variables.
+        chain: see `chain_forward.Chain`.
         limits: `LIMIT` numbers per variable.
         goal: see `pose_error`.
         q: the configuration, changed in place.
@@ -75,6 +69,7 @@ def descend(
         patience: number of iterations in which the cost must fall by the factor `fall`.
         fall: see `patience`.
     """
+    _, _, count, size = chain
     axes = work
     jacobian = shifted(work, AXIS * count)
     step = shifted(jacobian, 6 * size)
@@ -82,7 +77,7 @@ def descend(
     pose = stack(12)
     error = stack(6)
     next_error = stack(6)
-    place(steps, variables, count, q, pose, axes)
+    place(chain, q, pose, axes)
     distance2, angle2 = pose_error(goal, pose, linear, angular, error)
     cost = 0.5 * (linear * linear * distance2 + angular * angular * angle2)
     marked = cost
@@ -105,7 +100,7 @@ def descend(
             since = 0
         since += 1
         if moved:
-            geometric_jacobian(steps, variables, count, pose, axes, 1, 6, jacobian)
+            geometric_jacobian(chain, pose, axes, 1, 6, jacobian)
             for j in range(size):
                 gradient = 0.0
                 for k in range(3):
@@ -120,7 +115,7 @@ def descend(
         damped_step(jacobian, size, error, ratio * cost + LEAST_DAMPING, step)
         for j in range(size):
             trial[j] = min(max(q[j] + step[j], limits[LIMIT * j]), limits[LIMIT * j + 1])
-        place(steps, variables, count, trial, pose, axes)
+        place(chain, trial, pose, axes)
         next_distance2, next_angle2 = pose_error(goal, pose, linear, angular, next_error)
         next_cost = 0.5 * (linear * linear * next_distance2 + angular * angular * next_angle2)
         if next_cost < cost:

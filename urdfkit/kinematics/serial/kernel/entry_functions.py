@@ -26,8 +26,8 @@ def forward(
     """Compute the poses of the tip, and the Jacobians where wanted.
 
     Args:
-        steps: see `chain_forward.place`.
-        variables: see `chain_forward.place`.
+        steps: see `chain_forward.Chain`.
+        variables: see `chain_forward.Chain`.
         count: number of steps.
         size: number of variables.
         q: configurations, by rows.
@@ -37,10 +37,11 @@ def forward(
         wanted: 1: poses; 2: Jacobians; 3: both; 4: √det(J·Jᵀ) into `poses`, of the linear rows with 8.
         work: memory for ``AXIS * count + 6 * size`` numbers.
     """
+    chain = (steps, variables, count, size)
     pose = stack(12)
     jacobian = shifted(work, AXIS * count)
     for i in range(number):
-        place(steps, variables, count, shifted(q, size * i), pose, work)
+        place(chain, shifted(q, size * i), pose, work)
         if wanted & 1:
             matrix = shifted(poses, 16 * i)
             for r in range(3):
@@ -51,9 +52,9 @@ def forward(
             matrix[15] = 1.0
         if wanted & 2:
             rows = shifted(jacobians, 6 * size * i)
-            geometric_jacobian(steps, variables, count, pose, work, size, 1, rows)
+            geometric_jacobian(chain, pose, work, size, 1, rows)
         elif wanted & 4:
-            geometric_jacobian(steps, variables, count, pose, work, 1, 6, jacobian)
+            geometric_jacobian(chain, pose, work, 1, 6, jacobian)
             poses[i] = volume(jacobian, size, 3 if wanted & 8 else 6)
     return 0
 
@@ -133,8 +134,8 @@ def solve(
     """Solve targets `first` to `last`; return 0, or the number of the first target that is no pose, counted from 1.
 
     Args:
-        steps: see `chain_forward.place`.
-        variables: see `chain_forward.place`.
+        steps: see `chain_forward.Chain`.
+        variables: see `chain_forward.Chain`.
         count: number of steps.
         size: number of variables.
         limits: see `descent.LIMIT`.
@@ -149,13 +150,14 @@ def solve(
         solutions: written: see `search.search`.
         work: memory for ``AXIS * count + 10 * size`` numbers.
     """
+    chain = (steps, variables, count, size)
     goal = stack(12)
     block = (size + ROW) * int(options[6])
     for i in range(first, last):
         if not read_target(shifted(targets, width * i), width, goal):
             return i + 1
         search(
-            *(steps, variables, count, size, limits, goal, bits, width * i, width, shifted(seeds, stride * i)),
+            *(chain, limits, goal, bits, width * i, width, shifted(seeds, stride * i)),
             *(options, shifted(solutions, block * i), work),
         )
     return 0

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, geometric_jacobian, place
+from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, Chain, geometric_jacobian, place
 from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, compiled, inlined, shifted, stack
 from urdfkit.kinematics.serial.kernel.damped_step import volume
 from urdfkit.kinematics.serial.kernel.descent import LIMIT, descend
@@ -56,23 +56,14 @@ def is_different(q: Floats, row: Floats, size: int, limits: Floats) -> bool:
 
 
 @inlined
-def rank(
-    steps: Floats,
-    variables: Integers,
-    count: int,
-    size: int,
-    q: Floats,
-    seed: Floats,
-    prefer: int,
-    angular: float,
-    work: Floats,
-) -> float:
+def rank(chain: Chain, q: Floats, seed: Floats, prefer: int, angular: float, work: Floats) -> float:
     """Return a number that is smaller for the better of two solutions."""
+    _, _, count, size = chain
     if prefer == MANIPULABILITY:
         pose = stack(12)
         jacobian = shifted(work, AXIS * count)
-        place(steps, variables, count, q, pose, work)
-        geometric_jacobian(steps, variables, count, pose, work, 1, 6, jacobian)
+        place(chain, q, pose, work)
+        geometric_jacobian(chain, pose, work, 1, 6, jacobian)
         return -volume(jacobian, size, 6 if angular > 0.0 else 3)
     total = 0.0
     for j in range(size):
@@ -100,10 +91,7 @@ def start(attempt: int, state: Any, seed: Floats, size: int, limits: Floats, q: 
 
 @compiled
 def approach(
-    steps: Floats,
-    variables: Integers,
-    count: int,
-    size: int,
+    chain: Chain,
     limits: Floats,
     goal: Floats,
     state: Any,
@@ -118,10 +106,7 @@ def approach(
     Each descent ends with the distance alone, so that its weight does not shift the minimum.
 
     Args:
-        steps: see `chain_forward.place`.
-        variables: see `chain_forward.place`.
-        count: number of steps.
-        size: number of variables.
+        chain: see `chain_forward.Chain`.
         limits: see `descent.LIMIT`.
         goal: see `descent.pose_error`.
         state: random state of the target.
@@ -131,18 +116,19 @@ def approach(
         row: written: see `search`.
         work: memory for ``AXIS * count + 10 * size`` numbers.
     """
+    size = chain[3]
     q = work
     memory = shifted(work, size)
     best = math.inf
     for attempt in range(starts):
         state = start(attempt, state, seed, size, limits, q)
-        chain = (steps, variables, count, size, limits, goal, q, memory)
+        descent = (chain, limits, goal, q, memory)
         # Every other descent ignores the angle, which can hide the nearest position.
         weight = angular if attempt % 2 == 0 else 0.0
-        descend(*chain, 2.0, weight, 0.0, 0.0, ITERATIONS, PATIENCE, FALL)
+        descend(*descent, 2.0, weight, 0.0, 0.0, ITERATIONS, PATIENCE, FALL)
         if weight > 0.0:
-            descend(*chain, HEAVY, angular, 0.0, 0.0, 2 * ITERATIONS, 10, 0.99)
-        distance2, angle2, _ = descend(*chain, 1.0, 0.0, 0.0, 0.0, 2 * ITERATIONS, PATIENCE, 1.0 - 1e-9)
+            descend(*descent, HEAVY, angular, 0.0, 0.0, 2 * ITERATIONS, 10, 0.99)
+        distance2, angle2, _ = descend(*descent, 1.0, 0.0, 0.0, 0.0, 2 * ITERATIONS, PATIENCE, 1.0 - 1e-9)
         value = math.sqrt(distance2) + (SLACK * math.sqrt(angle2) if angular > 0.0 else 0.0)
         if value < best:
             best = value
@@ -157,10 +143,7 @@ def approach(
 
 @inlined
 def search(
-    steps: Floats,
-    variables: Integers,
-    count: int,
-    size: int,
+    chain: Chain,
     limits: Floats,
     goal: Floats,
     bits: Integers,
@@ -174,10 +157,7 @@ def search(
     """Write the solutions for one target: the best one, or all.
 
     Args:
-        steps: see `chain_forward.place`.
-        variables: see `chain_forward.place`.
-        count: number of steps.
-        size: number of variables.
+        chain: see `chain_forward.Chain`.
         limits: see `descent.LIMIT`.
         goal: see `descent.pose_error`.
         bits: see `random_stream.first_state`.
@@ -190,6 +170,7 @@ def search(
         rows: written: ``size + ROW`` numbers per solution.
         work: memory for ``AXIS * count + 10 * size`` numbers.
     """
+    size = chain[3]
     linear = options[0]
     angular = options[1]
     distance = options[2]
@@ -211,15 +192,14 @@ def search(
     while attempt <= last:
         state = start(attempt, state, seed, size, limits, q)
         distance2, angle2, cost = descend(
-            *(steps, variables, count, size, limits, goal, q, memory, linear, angular, distance, angle),
-            *(ITERATIONS, PATIENCE, FALL),
+            *(chain, limits, goal, q, memory, linear, angular, distance, angle, ITERATIONS, PATIENCE, FALL)
         )
         near_seed(q, seed, size, limits)
         reached = distance2 <= distance * distance and (angular == 0.0 or angle2 <= angle * angle)
         row = rows
         kept = False
         if reached:
-            value = 0.0 if prefer == FIRST else rank(steps, variables, count, size, q, seed, prefer, angular, memory)
+            value = 0.0 if prefer == FIRST else rank(chain, q, seed, prefer, angular, memory)
             if prefer == EVERY:
                 kept = True
                 for k in range(found):
@@ -251,7 +231,5 @@ def search(
     if found == 0:
         if options[9] > 0.0:
             state = first_state(options[8], bits, first, width)
-            approach(
-                *(steps, variables, count, size, limits, goal, state, seed, angular, int(options[9]), rows, work),
-            )
+            approach(chain, limits, goal, state, seed, angular, int(options[9]), rows, work)
         rows[size + 3] = float(restarts)
