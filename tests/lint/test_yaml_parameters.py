@@ -104,7 +104,7 @@ moveit_simple_controller_manager:
     default: true
     joints: [shoulder, elbow]
   grip_controller:
-    type: GripperCommand
+    type: ParallelGripperCommand
     action_ns: gripper_cmd
     joints: [grip]
 """

@@ -25,6 +25,9 @@ _ACTIONS = {
 }
 """Type of a MoveIt controller → classes of controllers with its action."""
 
+_PARALLEL = "ParallelGripperCommand"
+"""Type of the action of parallel_gripper_action_controller (moveit2, issue 3017); others offer ``GripperCommand``."""
+
 _NAMES = {"JointTrajectoryController": "follow_joint_trajectory", "GripperActionController": "gripper_cmd"}
 """Class of a controller → name of its action."""
 
@@ -52,6 +55,10 @@ def contradictions(
     if kind is not None and not any(each.partition("/")[2] in classes for each in kinds):
         yield kind, f"controller `{entry.name.text}` has no action for `{kind.text}`: its type is {next(iter(kinds))}"
         return
+    offers = {_PARALLEL if each.startswith("parallel_gripper") else "GripperCommand" for each in kinds}
+    if kind is not None and kind.text in (_PARALLEL, "GripperCommand") and kind.text not in offers:
+        yield kind, f"controller `{entry.name.text}` has the action {offers.pop()}, not {kind.text}"
+        return
     action = entry.settings.find("action_ns")
     offered = {_NAMES.get(each.partition("/")[2], "") for each in kinds}
     name = offered.pop() if len(offered) == 1 else ""
@@ -65,6 +72,27 @@ def contradictions(
     for node in joints.items if joints is not None and names and is_complete and is_unique else ():
         if node.text in model.robot.joint_by_name and node.text not in names:
             yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and rejects trajectories"
+
+
+def partial_lists(entry: MoveitEntry, controllers: list[ControllerSettings]) -> Iterator[tuple[Node, str]]:
+    """Yield the joints of a MoveIt controller that lack some of those of a controller of trajectories.
+
+    Such a controller rejects goals without all of its joints unless ``allow_partial_joints_goal`` is true.
+    """
+    joints = entry.settings.find("joints")
+    key = next((key for key, value in entry.settings.entries if value is joints), None)
+    if len(controllers) != 1 or joints is None or key is None or not joints.items:
+        return
+    [one] = controllers
+    is_partial = one.group.find("allow_partial_joints_goal")
+    allowed = is_partial is not None and is_partial.text.lower() == "true"
+    names, listed = _listed(one), [node.text for node in joints.items]
+    if allowed or not one.kind.endswith("/JointTrajectoryController") or len(names) != 1 or len(set(names[0])) < 2:
+        return
+    lacking = [name for name in names[0] if name not in listed]
+    if lacking and set(listed) < set(names[0]):
+        which = ", ".join(f"`{name}`" for name in lacking[:3]) + (", …" if len(lacking) > 3 else "")
+        yield key, f"`joints` lacks {which} of controller `{entry.name.text}`, which rejects such trajectories"
 
 
 def meant_controller(

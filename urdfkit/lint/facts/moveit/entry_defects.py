@@ -168,3 +168,38 @@ def controller_defects(entry: MoveitEntry) -> Defects:
         yield action, f"unknown action `{action.text}` of controller `{name}`" + Suggestion(near, action.text)
     if default is not None and default.kind == "text" and not default.is_plain:
         yield default, f'`default` of controller `{name}` is "{default.text}", a quoted string; write true or false'
+
+
+def unused_limits(source: Source) -> Defects:
+    """Yield each limit above zero that is switched off, although most other joints have that limit.
+
+    The setup assistant writes zeros for limits that are switched off.
+    """
+    joints = [entry for entry in entries(source) if entry.kind == "joint"]
+    for quantity in ("velocity", "acceleration"):
+        flags = [(entry, flag) for entry in joints if (flag := entry.settings.find(f"has_{quantity}_limits"))]
+        off = [(entry, flag) for entry, flag in flags if flag.text.lower() in ("false", "no", "off")]
+        for entry, flag in off if 2 * len(off) < len(flags) else ():
+            value = number_of(entry.settings.find(f"max_{quantity}"))
+            if value is not None and value > 0.0:
+                name = entry.name.text
+                yield flag, f"`max_{quantity}` of joint `{name}` is not used, because `has_{quantity}_limits` is false"
+
+
+def initial_positions_beyond_limits(source: Source, robot: Robot) -> Defects:
+    """Yield the first positions of joints that are beyond their limits; the setup assistant of MoveIt 2 writes them."""
+    for document in documents(source) if "initial_positions" in source.text else ():
+        positions = document.find("initial_positions")
+        for key, node in positions.entries if positions is not None else ():
+            joint, value = robot.joint_by_name.get(key.text), number_of(node)
+            limit = joint.limit if joint is not None and joint.type in ("revolute", "prismatic") else None
+            low, high = (limit.lower or 0.0, limit.upper or 0.0) if limit is not None else (0.0, 0.0)
+            if value is not None and low < high and not low - _ROUNDING <= value <= high + _ROUNDING:
+                yield (
+                    node,
+                    f"the first position of joint `{key.text}` is {value:g}, beyond its limits {low:g} … {high:g}",
+                )
+
+
+_ROUNDING = 0.005
+"""Accepted excess over a limit [rad or m]."""

@@ -44,6 +44,7 @@ class MoveitControllerContradiction(RobotRule):
         from urdfkit.lint.facts.moveit.controllers import (
             contradictions,
             meant_controller,
+            partial_lists,
             started_controllers,
             unspawned,
         )
@@ -64,5 +65,7 @@ class MoveitControllerContradiction(RobotRule):
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
                         yield self.at_span(span_of(source, node), message, names=(node.text,))
+                    for node, message in partial_lists(entry, started.get(name, [])):
+                        yield self.at_span(span_of(source, node), message, kind="partial")
         for span, message, name in unspawned(names, started, model):
             yield self.at_span(span, message, kind="unspawned", names=(name,))

@@ -22,7 +22,8 @@ class MoveitSettingInvalid(RobotRule):
     - misspelt parameters, solvers, planners, plugins, actions and controller types
     - values of the wrong type, and groups and controllers without a required parameter
     - limits that are negative, zero while ``has_…_limits`` is true, or far beyond those of the robot
-    - ``has_…_limits`` that is not a boolean, or is true without a limit
+    - ``has_…_limits`` that is not a boolean, is true without a limit, or is false for a single joint with a limit
+    - first positions beyond the limits of the joints
     - solver timeouts that are not positive, and default scaling factors above 1
     - Cartesian limits that are missing or have the wrong sign
     - joints of a group that no controller moves, and projections with joints of another group
@@ -56,7 +57,12 @@ class MoveitSettingInvalid(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
-        from urdfkit.lint.facts.moveit.entry_defects import incomplete_entries, uncontrolled_joints
+        from urdfkit.lint.facts.moveit.entry_defects import (
+            incomplete_entries,
+            initial_positions_beyond_limits,
+            uncontrolled_joints,
+            unused_limits,
+        )
         from urdfkit.lint.facts.moveit.group_joints import projection_defects
         from urdfkit.lint.facts.moveit.planning import planning_defects
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
@@ -73,6 +79,8 @@ class MoveitSettingInvalid(RobotRule):
                 *planning_defects(source, groups(root)),
                 *incomplete_entries(source, is_ros2, has_manager),
                 *cartesian_limit_defects(source),
+                *unused_limits(source),
+                *(initial_positions_beyond_limits(source, model.robot) if not model.is_incomplete else ()),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
                 *projection_defects(
                     source, root, model.robot, [text for name, text in texts.items() if name != source.file]

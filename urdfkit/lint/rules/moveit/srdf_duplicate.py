@@ -86,4 +86,5 @@ class SrdfDuplicate(RobotRule):
                 yield self.at(model, element, message, attribute="child_link", link=child, severity=severity)
             if before is not element:
                 message = f"duplicate {shown}{of}; the first is at {model.shown(before.origin.position)}"
-                yield self.at(model, element, message, severity="note" if is_pair else severity)
+                names = (str(element.get("name")),) if element.tag == "group" and not of else ()
+                yield self.at(model, element, message, severity="note" if is_pair else severity, names=names)

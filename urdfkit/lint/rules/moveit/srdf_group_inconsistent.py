@@ -16,8 +16,9 @@ class SrdfGroupInconsistent(RobotRule):
     - the tip of a chain is below its base, and a group does not contain itself
     - the parent link of an end effector carries the end effector, is in the parent group, and is not in the end
       effector's own group
-    - the parent group of an end effector is not its own group
+    - the parent group of an end effector is not its own group, nor a part of it
     - no other joint mimics a passive joint, and no controller moves it
+    - a joint without a group is passive if the robot has another joint with its name on the other side that is
     - a virtual joint ends at the root link, begins at a frame outside the robot, and is not fixed to ``odom`` or
       ``map`` if the robot has drive wheels
 
@@ -87,6 +88,11 @@ class SrdfGroupInconsistent(RobotRule):
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
                 carrier = effector.get("parent_group") or ""
                 within = joints_of(carrier, root, model.robot) if carrier and carrier != name else None
+                if within and within <= (joints_of(name, root, model.robot) or set()):
+                    message = f"group `{name}` of end effector `{effector.get('name')}` contains its parent group"
+                    help = "write the group of the end effector without the arm"
+                    yield self.at(model, effector, message, attribute="group", help=help, severity=severity)
+                    continue
                 links = [link.get("name") for link in by_name[carrier].find_all("link")] if within else []
                 links += [joints[each].child for each in within or () if each in joints]
                 if within and not is_own and parent in model.robot.link_by_name and parent not in links:
@@ -98,6 +104,7 @@ class SrdfGroupInconsistent(RobotRule):
                 elif not is_own and parent in model.robot.link_by_name and name != effector.get("parent_group"):
                     yield from self._carried(effector, root, model, severity)
             yield from self._passive(root, model, severity)
+            yield from self._not_passive(root, model, severity)
 
     def _frame(self, joint: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for a virtual joint that begins in the robot, or that is fixed although the robot drives."""
@@ -161,6 +168,22 @@ class SrdfGroupInconsistent(RobotRule):
             if reason:
                 message = f"joint `{name}` is passive, but {reason}"
                 yield self.at(model, passive, message, attribute="name", joint=name, severity=severity)
+
+    def _not_passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
+        """Yield a finding at a passive joint whose counterpart on the other side is in no group and not passive."""
+        from urdfkit.lint.facts.moveit.srdf import groups, joints_of
+        from urdfkit.lint.facts.twins import mirrored
+
+        passive = {element.get("name") or "": element for element in root.find_all("passive_joint")}
+        within = {joint for name in groups(root) for joint in joints_of(name, root, model.robot) or ()}
+        for name, element in passive.items():
+            for other in mirrored(name):
+                joint = model.robot.joint_by_name.get(other)
+                is_free = joint is not None and joint.is_movable and joint.mimic is None
+                if is_free and other not in passive and other not in within:
+                    message = f"joint `{name}` is passive, but joint `{other}`, which is in no group, is not"
+                    help = f'add <passive_joint name="{other}"/>'
+                    yield self.at(model, element, message, attribute="name", joint=other, help=help, severity=severity)
 
     def _chain(self, chain: Element, model: Model, severity: Severity | None) -> Findings:
         from urdfkit.lint.facts.moveit.srdf import path_between

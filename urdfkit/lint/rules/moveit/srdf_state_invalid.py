@@ -84,7 +84,7 @@ class SrdfStateInvalid(RobotRule):
                 if len(foreign) > _MAX_FOREIGN:
                     listed = [f"`{value.get('name')}`" for value in foreign[:3]] + ["…"] * (len(foreign) > 3)
                     message = f"joints {', '.join(listed)} of state `{state.get('name')}` are not in group `{group}`"
-                    yield self.at(model, state, message, severity=severity)
+                    yield self.at(model, state, message, severity=severity, names=(group,))
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
                     message = cause = f"joint `{value.get('name')}` is not in group `{group}`"
                     name = value.get("name") or ""
@@ -103,6 +103,7 @@ class SrdfStateInvalid(RobotRule):
                         cause=cause,
                         other=other,
                     )
+                yield from self._mimics(state, model, severity)
                 valued = {value.get("name") for value in values}
                 missing = [
                     joint.name
@@ -118,6 +119,23 @@ class SrdfStateInvalid(RobotRule):
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
                     message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"
                     yield self.at(model, state, message, joint=missing[0], severity=severity)
+
+    def _mimics(self, state: Element, model: Model, severity: Severity | None) -> Findings:
+        """Yield a finding for each value of a mimic joint that contradicts the value of the joint it follows."""
+        from urdfkit.description.xml.numbers import number
+
+        written = {value.get("name"): (value, number(value.get("value") or "")) for value in state.find_all("joint")}
+        for name, (value, stated) in written.items():
+            joint = model.robot.joint_by_name.get(name or "")
+            mimic = joint.mimic if joint is not None else None
+            _, followed = written.get(mimic.joint, (None, None)) if mimic is not None else (None, None)
+            if mimic is None or stated is None or followed is None:
+                continue
+            right = mimic.multiplier * followed + mimic.offset
+            if abs(stated - right) > max(2.0 * _TOLERANCE, 0.05 * abs(right)):
+                message = f"joint `{name}` mimics `{mimic.joint}`, whose value makes it {right:.4g}, not {stated:g}"
+                help = "remove it, or write this value"
+                yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity)
 
     def _exchanged(self, root: Element, model: Model) -> Iterator[tuple[str, tuple[Element, str]]]:
         """Yield the groups with a joint for whose counterpart on the other side all their states have a value."""
