@@ -111,3 +111,34 @@ def test_a_row_of_a_covariance_in_ros1(tmp_path):
 def test_two_drives_of_different_kinds_decide_nothing(tmp_path):
     second = {"other.yaml": DIFFERENTIAL.replace("drive:", "wheels:")}
     assert findings(tmp_path, SIDEWAYS | second, "nav2.yaml", "model: Omni", "model: DiffDrive") == []
+
+
+WHEEL = """<link name="{name}"/><joint name="{name}_joint" type="continuous"><parent link="base_link"/>
+  <child link="{name}"/><origin xyz="{xyz}"/><axis xyz="0 1 0"/></joint>
+  <gazebo reference="{name}"><collision><surface><friction><ode><mu>{mu}</mu><mu2>{mu2}</mu2>
+  <fdir1 gz:expressed_in="base_link">{along}</fdir1></ode></friction></surface></collision></gazebo>
+"""
+ROLLERS = {"0.3 0.2 0": "1 -1 0", "0.3 -0.2 0": "1 1 0", "-0.3 0.2 0": "1 1 0", "-0.3 -0.2 0": "1 -1 0"}
+ACROSS = {"1 1 0": "1 -1 0", "1 -1 0": "1 1 0"}
+
+
+@pytest.mark.parametrize(
+    ("mu", "mu2", "across", "count", "message"),
+    [
+        (1, 0, (), 0, ""),
+        (0, 1, (0, 1, 2, 3), 0, ""),
+        (1, 0, (2,), 1, "<fdir1> of mecanum wheel `w2` points across its rollers"),
+        (0, 1, (), 4, "<mu> along <fdir1> is less than <mu2>"),
+        (1, 0, (0, 1, 2, 3), 4, "points across its rollers"),
+    ],
+)
+def test_mecanum_wheels_pull_along_their_rollers(tmp_path, mu, mu2, across, count, message):
+    wheels = "".join(
+        WHEEL.format(name=f"w{at}", xyz=xyz, mu=mu, mu2=mu2, along=ACROSS[along] if at in across else along)
+        for at, (xyz, along) in enumerate(ROLLERS.items())
+    )
+    robot = f'<robot name="barge" xmlns:gz="http://gazebosim.org/schema"><link name="base_link"/>{wheels}</robot>'
+    (tmp_path / "barge.urdf").write_text(robot)
+    messages = [one.message for one in lint(tmp_path / "barge.urdf", select=("S914",))]
+    assert len(messages) == count
+    assert all(message in each for each in messages)

@@ -11,7 +11,8 @@ class DriveWheelWithoutFriction(RobotRule):
 
     ## What it does
     Checks ``mu1`` and ``mu`` of the wheels of differential and skid-steer drives without ``fdir1``. Also reports a
-    wheel without coefficients if all other drive wheels have them. Casters are not checked.
+    wheel without coefficients if all other drive wheels have them, and mecanum wheels whose ``fdir1``, ``mu`` and
+    ``mu2`` give friction across their rollers instead of along them. Casters are not checked.
 
     ## Why is this bad?
     The wheel spins, and the robot does not move.
@@ -50,9 +51,16 @@ class DriveWheelWithoutFriction(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each drive wheel with a coefficient of zero."""
+        from urdfkit.lint.facts.gazebo.mecanum_friction import wrong_frictions
+
         driven = list(_driven(model))
         wheels = {joint.child: joint.name for joint in driven}
         yield from self._of_others_only(model, driven)
+        for element, call, message, help, link in wrong_frictions(model):
+            if call is not None:
+                yield self.at_span(model.span(call), message, help=help)
+            else:
+                yield self.at(model, element, message, link=link, help=help)
         for block in model.robot.gazebo:
             elements = list(block.element.walk()) if block.reference in wheels else []
             if any(element.tag == "fdir1" for element in elements):
