@@ -14,7 +14,7 @@ from pathlib import Path
 from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, number_of, walk, yamls
 from urdfkit.lint.facts.navigation.sections import COSTMAPS, costmaps_of_ros1, sections
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -92,6 +92,8 @@ def costmap_defects(model: Model) -> Defects:
         yield from _footprint(each)
         yield from _window(each)
         yield from _inflation(each, every)
+        yield from _two_shapes(each)
+    yield from _late(model, every)
 
 
 def _layers(group: Node) -> Iterator[tuple[Node, str]]:
@@ -166,6 +168,32 @@ def _window(each: Costmap) -> Defects:
         if value is not None and size is not None and 0.0 < size < 2.0 * reach:
             message = f"`{name}` is {size:g} m, but the robot reaches {reach:.3g} m from the middle of the costmap"
             yield each.source, value, message
+
+
+def _two_shapes(each: Costmap) -> Defects:
+    """Yield a radius next to a footprint, which replaces it."""
+    radius = each.group.find("robot_radius")
+    if radius is not None and footprint_of(each.group) is not None and number_of(radius):
+        yield each.source, radius, "`robot_radius` has no effect next to `footprint`; remove one of them"
+
+
+def _late(model: Model, every: list[Costmap]) -> Defects:
+    """Yield the rate of a local costmap that is older than the time to drive through its inflation."""
+    speeds = [
+        speed
+        for source in yamls(model)
+        for node in nodes(source)
+        for name in ("max_vel_x", "vx_max", "desired_linear_vel")
+        if (speed := number_of(node.find(name))) is not None
+    ]
+    for each in every if speeds else ():
+        value = each.group.find("update_frequency") if each.name == "local_costmap" else None
+        rate = number_of(value)
+        radii = [number_of(node.find("inflation_radius")) for node in walk(each.group)]
+        reach = max((radius for radius in radii if radius is not None), default=0.0)
+        if value is not None and rate and rate > 0.0 and 0.0 < reach < min(speeds) / rate:
+            message = f"`update_frequency` is {rate:g} Hz: at {min(speeds):g} m/s, the robot drives"
+            yield each.source, value, f"{message} {min(speeds) / rate:.3g} m between two updates, beyond the inflation"
 
 
 def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]) -> bool:

@@ -66,8 +66,8 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             yield from _values(node, frozenset(("controller_frequency",)))
         for node in costmaps_of_ros1(source):
             yield from choice_defects(node)
-            yield from _plugins(node)
             for each in walk(node):
+                yield from _plugins(each)
                 yield from _values(each)
         return
     for key, group in sections(source):
@@ -189,6 +189,9 @@ def _plugins(node: Node) -> Defects:
     """Yield plugins and observation sources that are listed without a section."""
     defined = {key.text: (key, value) for key, value in node.entries if value.kind == "group"}
     for key, value in node.entries:
+        if key.text == "observation_sources" and "," in value.text:
+            yield value, "`observation_sources` contains commas; separate the names by spaces"
+            continue
         if key.text == "observation_sources" and value.kind == "text":
             listed = [(value, word) for word in value.text.split()]
             others = [name for name, (_, each) in defined.items() if each.find("topic") is not None]

@@ -16,7 +16,7 @@ from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, walk, yamls
 from urdfkit.lint.facts.gazebo.steered_axles import tight_turns
 from urdfkit.lint.facts.navigation.plugin_parameters import foreign_parameters, repeated_plugins, short_model_steps
 from urdfkit.lint.facts.navigation.sections import sections
@@ -43,8 +43,14 @@ _PACKAGES = {
     "navfn": ("NavfnROS",),
     "carrot_planner": ("CarrotPlanner",),
     "costmap_2d": ("StaticLayer", "ObstacleLayer", "VoxelLayer", "InflationLayer", "NonPersistentVoxelLayer"),
+    "clear_costmap_recovery": ("ClearCostmapRecovery",),
+    "rotate_recovery": ("RotateRecovery",),
+    "move_slow_and_clear": ("MoveSlowAndClear",),
 }
 """ROS 1 package → the classes of its plugins."""
+
+_LISTED_PACKAGES = r"(?:costmap_2d|clear_costmap_recovery|rotate_recovery|move_slow_and_clear)(?:/|::)"
+"""Matches the classes of plugins that lists of layers and of recovery behaviors contain."""
 
 _OTHER_NAMES = {
     "DWAPlannerROS": {
@@ -131,6 +137,8 @@ def _in_ros1(source: Source, loaded: set[str]) -> Defects:
     for node in nodes(source):
         for key, value in node.entries:
             names = _OTHER_NAMES.get(key.text, {})
+            if key.text == "TebLocalPlannerROS":
+                yield from ((source, *defect) for defect in _of_elastic_band(value))
             if key.text not in loaded and not loaded.isdisjoint(_OTHER_NAMES):
                 names = {}  # a section that is not read
             yield from ((source, *defect) for defect in renamed_in(key.text, value, names))
@@ -139,12 +147,44 @@ def _in_ros1(source: Source, loaded: set[str]) -> Defects:
                 yield source, value, f"plugin `{value.text}` belongs to Nav2, which ROS 1 does not have"
             elif key.text == "type" and (at := re.fullmatch(r"costmap_2d/(\w+)", value.text)):
                 yield source, value, f"unknown plugin `{value.text}`" + Suggestion(f"costmap_2d::{at[1]}", value.text)
-            elif key.text in _LOADED or (key.text == "type" and value.text.startswith("costmap_2d")):
+            elif f"base_{key.text}" in _LOADED and re.fullmatch(r"\w+/\w+", value.text):
+                right = f"base_{key.text}"
+                if value.text.partition("/")[0] in _PACKAGES and node.find(right) is None:
+                    yield source, key, f"move_base has no parameter `{key.text}`" + Suggestion(right, key.text)
+            elif key.text in _LOADED or (key.text == "type" and re.match(_LISTED_PACKAGES, value.text)):
                 package, _, kind = value.text.replace("::", "/").partition("/")
                 classes = _PACKAGES.get(package, ())
+                if kind in classes and "::" in value.text and package != "costmap_2d":
+                    right = f"{package}/{kind}"
+                    yield source, value, f"unknown plugin `{value.text}`" + Suggestion(right, value.text)
                 if classes and kind not in classes and "/" not in kind:
                     near = nearest(kind, classes, cutoff=0.5) or classes[0]
                     yield source, value, f"`{package}` has no plugin `{kind}`" + Suggestion(near, kind)
+
+
+_FOOTPRINTS = {
+    "circular": "radius",
+    "two_circles": "front_radius",
+    "line": "line_start",
+    "polygon": "vertices",
+}
+"""Type of ``footprint_model`` of teb_local_planner → its parameter (teb_local_planner_ros.cpp, Noetic)."""
+
+
+def _of_elastic_band(group: Node) -> Iterator[tuple[Node, str]]:
+    """Yield a footprint of another type than its parameters, and an inflation that ends where obstacles begin."""
+    shape = group.find("footprint_model")
+    kind = shape.find("type") if shape is not None else None
+    if shape is not None and kind is not None and kind.text in _FOOTPRINTS:
+        needed = _FOOTPRINTS[kind.text]
+        others = [name for name, each in _FOOTPRINTS.items() if shape.find(each) is not None]
+        if shape.find(needed) is None and others:
+            message = f"`{kind.text}` footprint has no `{needed}`; these are the parameters of"
+            yield kind, f"{message} a footprint of the type `{others[0]}`"
+    least, inflated = group.find("min_obstacle_dist"), group.find("inflation_dist")
+    gap, reach = number_of(least), number_of(inflated)
+    if least is not None and gap is not None and reach is not None and 0.0 < reach <= gap:
+        yield least, f"`min_obstacle_dist` is {gap:g} m, so `inflation_dist`, {reach:g} m, has no effect"
 
 
 def _mixed(source: Source) -> Defects:

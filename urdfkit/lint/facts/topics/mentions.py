@@ -54,6 +54,7 @@ class Mention:
         reader: the executable that has the topic by default; then the place is the executable.
         needs_all: whether the topic is reported only if all publishers are known.
         own: the topics that the reader publishes.
+        typed: the place of the type in the file; None if the name of the parameter is for one type.
     """
 
     source: Source
@@ -64,6 +65,7 @@ class Mention:
     reader: str = ""
     needs_all: bool = False
     own: frozenset[str] = frozenset()
+    typed: Named | None = None
 
 
 def mentions(model: Model) -> Iterator[Mention]:
@@ -96,7 +98,9 @@ def mentions(model: Model) -> Iterator[Mention]:
                         is_input = key.text[-1].isdigit()
                         named = group.find("data_type")
                         type = _TYPES.get(key.text.rstrip("0123456789"), named.text if named is not None else "")
-                        yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input, type)
+                        at = Named(named.text, start_of(source, named)) if named is not None else None
+                        topic = Named(value.text, start_of(source, value))
+                        yield Mention(source, topic, reads, is_input, type, typed=at)
 
 
 def topics_of_receivers(model: Model) -> Iterator[Mention]:

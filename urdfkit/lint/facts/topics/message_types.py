@@ -57,6 +57,9 @@ def mistyped(model: Model) -> Iterator[tuple[Span, str, Element | None, bool]]:
         if found and mention.type not in found and mention.type in _DATA_TYPES:
             what = " and ".join(sorted(found))
             message = f"`{name}` has {what} messages, but its subscriber expects {mention.type} messages"
+            at = mention.typed
+            if at is not None and any(re.search(_NAMES.get(each, "$^"), name) for each in found):
+                span = mention.source.span(at.start, at.start + len(at.name))  # the topic has the name of its type
             is_named = re.search(_NAMES.get(mention.type, "$^"), name) is not None
             yield span, message, _output_type(name.strip("/"), model), is_named
         elif not found and name.strip("/") not in seen and (other := unbridged.get(name.strip("/"))):
