@@ -236,7 +236,7 @@ def _the_one(entries: list[Path], where: str) -> Path:
     if len(entries) > 1:
         shown = ", ".join(_shortest(path) for path in entries[:_LISTED])
         more = f" and {len(entries) - _LISTED} more" if len(entries) > _LISTED else ""
-        raise ResourceError(f"{len(entries)} robot descriptions in {where}, name one: {shown}{more}")
+        raise ResourceError(f"{len(entries)} robot descriptions in {where}; pass one of them: {shown}{more}")
     return entries[0]
 
 

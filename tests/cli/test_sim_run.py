@@ -155,7 +155,7 @@ def test_planar_and_floating_joints_are_reported(tmp_path: Path, capsys: Capture
     [
         ("pl=1", "joint `pl` is planar and has more than one position: `pl/x`, `pl/y`, `pl/theta`"),
         ("fl/x=1", "no movable joint `fl/x` in robot `several`; did you mean `fl/trans_x`?"),
-        ("fl/rot_x=0:1", "`fl/rot_x` is one number of a quaternion: it has no velocity of its own"),
+        ("fl/rot_x=0:1", "`fl/rot_x` is one number of a quaternion: it has no separate velocity"),
         ("pl/thet=1", "did you mean `pl/theta`?"),
     ],
 )
@@ -247,7 +247,7 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
         (["simpleton", "--for", "1", "--joint-target", "left_wheel"], "`left_wheel` is not NAME=VALUE"),
         (["simpleton", "--for", "1", "--initial-joints", "camera_joint=1"], "joint `camera_joint` is fixed"),
         (["simpleton", "--for", "1", "--recrod", "x.mcap"], "unrecognized arguments: --recrod"),
-        (["simpleton", "--for", "1", "--record", "x.bag"], "recordings are MCAP; call it x.mcap"),
+        (["simpleton", "--for", "1", "--record", "x.bag"], "recordings are MCAP files; name the file x.mcap"),
         (["simpleton", "--for", "1", "--until", "x >"], "--until: `x >` is not an expression"),
         (["simpleton", "--for", "1", "--until", "heading > 1"], "unknown name `heading`"),
         (["simpleton", "--for", "1", "--until", "velocity('left') > 1"], "unknown joint `left`"),

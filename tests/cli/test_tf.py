@@ -235,7 +235,7 @@ def test_refusals_are_one_line(capsys: pytest.CaptureFixture[str], words: list[s
 def test_a_mimic_joint_cannot_be_set(capsys: pytest.CaptureFixture[str], limited: str) -> None:
     code, out, err = ran(capsys, limited, "base", "arm", "--joint", "follow=1")
     assert (code, out) == (2, "")
-    assert "joint `follow` mimics another (3 · bend + 0); set `bend` instead" in err
+    assert "joint `follow` mimics another joint (3 · bend + 0); set `bend` instead" in err
 
 
 @pytest.mark.parametrize(

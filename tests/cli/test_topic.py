@@ -147,7 +147,7 @@ def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
         (["pub", COMMAND, "geometry_msgs/Twst"], "did you mean `geometry_msgs/msg/Twist`?"),
         (["pub", COMMAND, "geometry_msgs/Twist", "{linaer: {x: 1}}"], "no field `linaer` in geometry_msgs/msg/Twist"),
         (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: fast}}"], "field `x` of geometry_msgs/msg/Vector3"),
-        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: .inf}}"], "holds a value that no message supports"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: .inf}}"], "contains a value that no message supports"),
         (["pub", COMMAND, "geometry_msgs/Twist", "{linear: [}"], "the message is not YAML"),
         (["pub", COMMAND, "-r", "0"], "`0` is not a rate"),
         (["echo", ODOM, "-n", "0"], "`0` is not a whole number of at least 1"),
@@ -313,7 +313,7 @@ def test_messages_on_the_command_line() -> None:
     assert message_of(["{data: 1}"]) == {"data": 1}
     assert message_of(["0.5"]) == [0.5]
     assert message_of(["[1, 2]", "[3]"]) == [[1, 2], [3]]
-    with pytest.raises(UsageError, match="holds a value that no message supports"):
+    with pytest.raises(UsageError, match="contains a value that no message supports"):
         message_of(["2024-01-01"])
 
 

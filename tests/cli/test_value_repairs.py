@@ -45,7 +45,7 @@ CASES = {
     "1.0": (('version="1.0"', "", TURN, LIMIT), "E021", 8, "needs URDF 1.1"),
     "capsule": (("", CAPSULE, "", LIMIT), "E021", 5, "<capsule> needs URDF 1.1"),
     "1.3": (('version="1.3"', "", TURN, LIMIT), "E020", 2, "unknown version `1.3` of URDF; it is read as version 1.2"),
-    "limits": (("", "", "", '\nupper="-2" effort="1" velocity="1"'), "J405", 10, "the two are exchanged"),
+    "limits": (("", "", "", '\nupper="-2" effort="1" velocity="1"'), "J405", 10, "the two limits are swapped"),
     "effort": (("", "", "", 'upper="1"\neffort="-1" velocity="1"'), "J410", 11, "effort limit -1 N·m"),
     "velocity": (("", "", "", 'upper="1"\neffort="1"\nvelocity="-2"'), "J410", 12, "velocity limit -2 rad/s"),
     "jerk": (('version="1.2"', "", "", f'{LIMIT}\njerk="-1"'), "J410", 11, "jerk limit -1 rad/s³"),

@@ -138,7 +138,7 @@ def test_a_link_and_a_joint_of_one_name(robot_of: Callable[[str], Robot]) -> Non
             "world",
             "camera",
             {"dial_joint": 1.0},
-            "joint `dial_joint` mimics another (1.5 · bend + -0.2); set `bend` instead",
+            "joint `dial_joint` mimics another joint (1.5 · bend + -0.2); set `bend` instead",
         ),
         ("world", "camera", {"bend": float("nan")}, "position of joint `bend` is nan; it must be a finite number"),
     ],

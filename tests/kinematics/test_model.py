@@ -174,7 +174,7 @@ def _chain(a: str = "", b: str = "", c: str = "") -> str:
     [
         ({"tun": 1.0}, r"no movable joint `tun` in robot `arm`; did you mean `turn`\?"),
         ({"post": 1.0}, r"joint `post` is fixed: it does not move"),
-        ({"dial_joint": 1.0}, r"joint `dial_joint` mimics another \(1\.5 · bend \+ -0\.2\); set `bend` instead"),
+        ({"dial_joint": 1.0}, r"joint `dial_joint` mimics another joint \(1\.5 · bend \+ -0\.2\); set `bend` instead"),
         ({"turn": float("nan")}, r"position of joint `turn` is nan; it must be a finite number"),
         ({"slide": float("inf")}, r"position of joint `slide` is inf"),
     ],
@@ -244,9 +244,9 @@ def test_a_floating_base_is_the_pose_of_the_root_link(arm: Robot) -> None:
 
 
 def test_a_fixed_base_has_no_pose(kinematics: Kinematics) -> None:
-    with pytest.raises(KinematicsError, match=r"root link `world` of robot `arm` does not float"):
+    with pytest.raises(KinematicsError, match=r"root link `world` of robot `arm` has no floating base"):
         kinematics.configuration(base=np.array([0.0, 0, 0, 0, 0, 0, 1]))
-    with pytest.raises(KinematicsError, match="does not float"):
+    with pytest.raises(KinematicsError, match="has no floating base"):
         kinematics.velocity(base=np.zeros(6))
 
 

@@ -258,7 +258,7 @@ def test_a_correct_cmake_file_is_silent(cmake, old, new):
         (
             "name=package_name,",
             'name=package_name,\n    version="1.0.1",',
-            "9: the version in setup.py is 1.0.1, but that in package.xml is 1.0.0",
+            "9: the version in setup.py is 1.0.1, but the version in package.xml is 1.0.0",
         ),
         (":main", ".main", "17: `drive = cart.drive.main` is not of the form `name = module:function`"),
     ],

@@ -148,5 +148,7 @@ def test_a_node_in_another_namespace_has_one_finding(tmp_path, file, old, new, m
 )
 def test_a_section_in_another_namespace_is_found(tmp_path, section, file):
     findings = found(tmp_path, section, {"launch/group.launch.xml": XML})
-    message = f"node `/cart/controller_manager` has no section in controllers.yaml, which has `/{section.strip('/')}`"
+    message = (
+        f"node `/cart/controller_manager` has no section in controllers.yaml; it has a section `/{section.strip('/')}`"
+    )
     assert [each[1:] for each in findings] == [("L117", message)]

@@ -68,7 +68,7 @@ def test_an_argument_that_only_an_including_file_has_is_a_warning(tmp_path, decl
     assert found(cart, "L101") == ([("view.launch.py", 10, message)] if declared == "log" else [])
     both = '"log", default_value="1"), DeclareLaunchArgument("{declared}"'
     write(cart / "launch/view.launch.py", USES.replace('"{declared}"', both).replace("{declared}", declared + "s"))
-    message = "launch argument `use_sim_time` is not declared; the file fails unless an including file has it"
+    message = "launch argument `use_sim_time` is not declared; the file fails unless an including file declares it"
     assert (declared == "log") is (("view.launch.py", 11, message) in found(cart, "L101"))
 
 
@@ -405,7 +405,7 @@ def generate_launch_description():
 def test_gazebo_starts_once_under_a_condition(tmp_path, first, flag, is_reported):
     cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim")
     write(cart / "launch/gz.launch.py", SIMULATORS.replace("{first}", first).replace("{flag}", flag))
-    message = "Gazebo starts under the condition on line 21 too; both start"
+    message = "line 21 also starts Gazebo under this condition"
     assert found(cart, "L111") == ([("gz.launch.py", 22, message)] if is_reported else [])
 
 

@@ -425,7 +425,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         "K973",
         None,
         manifest(name="q") | cmake(),
-        ["package.xml:2: error: the package is `q`, but its folder and its project are `p`"],
+        ["package.xml:2: error: the package is named `q`, but its folder and its project are named `p`"],
     ),
     "setup.py without package.xml": (
         "K973",
@@ -438,7 +438,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         None,
         setup("q", "share/p", "package.xml"),
         [
-            "setup.py:4: error: the name in setup.py is `q`, but that of the package is `p`",
+            "setup.py:4: error: the name in setup.py is `q`, but the package is named `p`",
             (
                 "setup.py:5: error: data_files does not install the marker `resource/…` to"
                 " share/ament_index/resource_index/packages"
@@ -626,7 +626,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         [
             (
                 "r.urdf.xacro:2: warning: package `other_robot` is not installed on this machine"
-                " | install it, since package.xml depends on it, or add its folder with --package-path"
+                " | install it, because package.xml depends on it, or pass its folder with --package-path"
             )
         ],
     ),
@@ -642,7 +642,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         [
             (
                 "r.urdf.xacro:2: error: `1,5` is used in an expression, but is not a number"
-                " | write a number; `${width / 2}` uses it at r.urdf.xacro:3"
+                " | write a number; `${width / 2}` uses the value at r.urdf.xacro:3"
             )
         ],
     ),

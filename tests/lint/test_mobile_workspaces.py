@@ -307,7 +307,7 @@ MISTAKES = [
         "",
         "L110",
         8,
-        "costmap.yaml has parameters of costmaps, which these",
+        "costmap.yaml has parameters of costmaps, which costmaps",
     ),
     (
         ROS1,
@@ -331,7 +331,15 @@ MISTAKES = [
     (ROS1, "gmapping.yaml", "odom_frame: odom", "odom_frame: drive/odom", "K984", 2, "is a topic and not a frame"),
     (ROS1, "gmapping.yaml", "Urange: 7.0", "Urange: 70.0", "K979", 4, "the scanner measures up to 8 m"),
     (ROS1, "cart.urdf", "<robotNamespace>/<", "<robotNamespace>/cart<", "K960", 0, "start.launch:3 is in no namespace"),
-    (ROS2, "config/ekf.yaml", "wheels/odom", "odom", "K980", 3, "publishes `odom`, so `odom0` is its own output"),
+    (
+        ROS2,
+        "config/ekf.yaml",
+        "wheels/odom",
+        "odom",
+        "K980",
+        3,
+        "publishes `odom`, so `odom0` makes it read its own output",
+    ),
     (
         ROS2,
         "config/nav2.yaml",

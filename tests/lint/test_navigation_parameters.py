@@ -281,7 +281,7 @@ BAD = [
         "resolution: 0.5\norigin: [-0.5, -0.25",
         "K971",
         3,
-        "`resolution` is 0.5 m per pixel, but `origin` is half of the size of the image with 0.05 m per pixel",
+        "`resolution` is 0.5 m per pixel, but `origin` is half of the image size for 0.05 m per pixel",
     ),
     ("map", "0.05", "0", "K971", 3, "`resolution` is 0 m; it must be positive"),
     ("drive", "tf: false", "tf: true", "K971", 9, "the filter in filter.yaml publishes the same transform"),
@@ -295,7 +295,7 @@ BAD = [
         4,
         "unknown parameter `typ` of controller `wheels`; did you mean `type`?",
     ),
-    ("behaviors", '      plugin: "nav2_behaviors::Spin"\n', "      yes: true\n", "K971", 4, "lists, has no `plugin`"),
+    ("behaviors", '      plugin: "nav2_behaviors::Spin"\n', "      yes: true\n", "K971", 4, "whose section has no `plugin`"),
     (
         "behaviors",
         "nav2_amcl::DifferentialMotionModel",

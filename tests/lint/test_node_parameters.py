@@ -187,7 +187,14 @@ BAD = [
         "swap them",
     ),
     ("filter", "frequency", "rate", "K971", 3, "has no parameter `rate`; did you mean `frequency`?"),
-    ("filter", "imu0_config", "imu1_config", "K971", 9, "`imu1_config` has no topic `imu1`"),
+    (
+        "filter",
+        "imu0_config",
+        "imu1_config",
+        "K971",
+        9,
+        "`imu1_config` has no effect, because the topic `imu1` is not set",
+    ),
     ("filter", "imu0_config", "imu0_configuration", "K971", 9, "did you mean `imu0_config`?"),
 ]
 

@@ -267,7 +267,7 @@ MISTAKES = [
     ("config/navigation.yaml", "[0.0, 0.0, 0.0]", "[1.0, 0.0, 0.0]", "K971", "never moves"),
     ("config/navigation.yaml", "timeout: 1.0", "timeout: 0.01", "K971", "shorter than the period"),
     ("config/navigation.yaml", "action_bt_node", "action_node", "K971", "nav2_follow_path_action_bt_node"),
-    ("config/navigation.yaml", "width: 4", "width: 1", "K982", "the robot reaches"),
+    ("config/navigation.yaml", "width: 4", "width: 1", "K982", "the robot extends"),
     (
         "config/navigation.yaml",
         MODEL,
@@ -275,8 +275,8 @@ MISTAKES = [
         "K971",
         "did you mean `Omni`?",
     ),
-    ("config/mux.yaml", "joy_vel, timeout: 0.5", "joy_vel, timeout: 0.0", "K971", "for ever"),
-    ("config/mux.yaml", "priority: 50", "priority: 5", "K971", "no input has a lower one"),
+    ("config/mux.yaml", "joy_vel, timeout: 0.5", "joy_vel, timeout: 0.0", "K971", "forever"),
+    ("config/mux.yaml", "priority: 50", "priority: 5", "K971", "no input has a lower priority"),
     ("config/controllers.yaml", "[front_left, rear_left]", "[front_left]", "K971", "has 1 wheels"),
     ("config/controllers.yaml", "per_side: 2", "per_side: 4", "K971", "`left_wheel_names` has 2"),
     ("config/controllers.yaml", "open_loop: false", 'open_loop: "no"', "K971", "write false"),
@@ -348,7 +348,7 @@ wheel:
     interface_name: velocity
 """
 SPAWNERS = '<launch><node pkg="controller_manager" exec="spawner" args="{}"/></launch>\n'
-UNSPAWNED = "no launch file spawns controller `wheel`, unlike the others of its file"
+UNSPAWNED = "no launch file spawns controller `wheel`, unlike the other controllers of its file"
 TOO_FAST = "`update_rate` is 2000 Hz, but the physics of Gazebo has 1000 steps per second"
 OCTOMAP = "no other file names the frame `mapp` of the octomap"
 

@@ -45,5 +45,5 @@ def test_an_argument_that_leaves_the_controller_manager_out(tmp_path, value, plu
     write(cart / "cart.xacro", ROBOT.format(plugin=plugin))
     write(cart / "launch/description.launch", DESCRIPTION.replace("simulated", "sim"))
     write(cart / "launch/sim.launch", SIMULATION.format(argument="sim", value=value, spawn=spawn))
-    message = "`sim:=false` excludes the plugin with the controller manager, so `spawner` waits forever"
+    message = "`sim:=false` excludes the plugin that runs the controller manager, so `spawner` waits forever"
     assert found(cart, "K968") == ([("sim.launch", 3, message)] if is_reported else [])

@@ -63,7 +63,7 @@ def test_lengths_in_the_tolerance_are_silent(tmp_path, old, new):
 def test_mimic_joints_have_no_command_interface_since_jazzy(tmp_path, release, count):
     (tmp_path / "hand.urdf").write_text(HAND)
     found = [one for one in lint(tmp_path / "hand.urdf", target=release) if one.code == "C720"]
-    message = "joint `right` mimics another joint and has a command interface, which ros2_control refuses"
+    message = "joint `right` mimics another joint and has a command interface, which ros2_control rejects"
     assert [one.message for one in found] == [message] * count
     assert [one.help for one in found] == ["remove its command interfaces"] * count
     (tmp_path / "hand.urdf").write_text(

@@ -36,7 +36,7 @@ OUTSIDE_PARENT = (
 )
 STROKE = (
     "joint `joint_3` slides from -2.4 to 2.4 m, but the whole robot extends 1.09 m "
-    "write limits of prismatic joints in metres, or the type of a joint that turns"
+    "write the limits in metres, or use the type of a joint that turns"
 )
 CYLINDER = "the inertia of link `left_wheel_link` is that of a cylinder with radius and length swapped"
 MISTAKES = [

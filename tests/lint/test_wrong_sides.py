@@ -221,7 +221,7 @@ def test_the_unused_declaration_stands_for_the_argument_without_one(tmp_path):
     write(cart / "launch/cart.launch.xml", INCLUDING)
     (found,) = [each for each in lint(cart) if each.code == "L101"]
     assert found.message == "launch argument `server_only` is declared but not used, and `headless` is not declared"
-    assert (found.line, found.help) == (10, "declare `headless` in place of it, or as well")
+    assert (found.line, found.help) == (10, "declare `headless` instead, or in addition")
     write(cart / "launch/sim.launch.py", INCLUDED.replace('"false"),', '"false"), DeclareLaunchArgument("more"),'))
     assert [row[1] for row in rows(cart, "L101")] == [11]
 

@@ -251,7 +251,7 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
             "arm",
             "    constraints:",
             "constraints:",
-            "17: `constraints` is next to the controllers, not in one; indent it",
+            "17: `constraints` is at the level of the controllers, not in a controller; indent it",
         ),
         ("arm", "joint_trajectory_controller/", "joint-trajectory_controller/", "7: unknown controller type"),
         (
@@ -383,7 +383,7 @@ def test_a_correct_file_of_ros2_is_silent(ros2, file, old, new):
             "    type: effort_controllers/JointPositionController\n    joints: elbow\n",
             "7: `effort_controllers/JointPositionController` reads `joint`, not `joints`",
         ),
-        ("    publish_rate: 50", "  publish_rate: 50", "4: `publish_rate` is next to the controllers, not in one"),
+        ("    publish_rate: 50", "  publish_rate: 50", "4: `publish_rate` is at the level of the controllers, not in a controller"),
         ("  elbow: 1.0", '  elbow: "1.0"', '13: `elbow` in `velocity_ff` is "1.0", a quoted string'),
         ("  elbow: 1.0", "  elbwo: 1.0", "13: unknown name `elbwo` in `velocity_ff` of controller `arm_controller`"),
         ("p: 20.0", 'p: "20.0"', '9: gain `p` is "20.0", a quoted string'),

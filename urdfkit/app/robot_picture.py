@@ -63,7 +63,7 @@ def robot_picture(
     placed = [pose_of[body] for body in scene.bodies]
     box = bounds(scene, placed, role=role)  # type: ignore[arg-type]
     if box is None:
-        raise ModelError(f"robot `{robot.name}` has no visuals and no collisions to show")
+        raise ModelError(f"robot `{robot.name}` has no visual or collision shapes to show")
     table = RayTable(scene, scene.with_role(role))  # type: ignore[arg-type]
     table.place(placed)
     center, radius = box.mean(axis=0), max(float(np.linalg.norm(box[1] - box[0])) / 2.0, 1e-3)

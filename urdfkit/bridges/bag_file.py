@@ -67,7 +67,9 @@ class BagFile:
         if self.path.is_file() and self.path.suffix not in FIRST_BYTES:
             raise ResourceError(f"{self.path} is not a recording: recordings are {', '.join(FIRST_BYTES)} files")
         if self.path.is_file() and not _begins_with(self.path, FIRST_BYTES[self.path.suffix]):
-            raise ResourceError(f"{self.path} is not a recording: its content is not that of a {self.path.suffix} file")
+            raise ResourceError(
+                f"{self.path} is not a recording: its content does not have the format of a {self.path.suffix} file"
+            )
         if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
             raise ResourceError(f"{self.path} is not a recording: a ros2 bag folder contains metadata.yaml")
         try:

@@ -124,7 +124,7 @@ class Graph:
         if not self.calls.add(function, size):
             raise UsageError(
                 f"{CAPACITY} calls or {MOST_BYTES >> 20} MB of messages are queued for the simulation; "
-                "this one is dropped"
+                "this message is dropped"
             )
 
     def publish(self, topic: str, message: Any, size: int, failed: Callable[[str], None]) -> None:

@@ -37,7 +37,7 @@ def check_name(path: Path) -> None:
         UsageError: its suffix is not ``.mcap``.
     """
     if path.suffix != SUFFIX:
-        raise UsageError(f"cannot record to {path}: recordings are MCAP; call it {path.stem}{SUFFIX}")
+        raise UsageError(f"cannot record to {path}: recordings are MCAP files; name the file {path.stem}{SUFFIX}")
 
 
 class Recorder:

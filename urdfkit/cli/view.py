@@ -33,7 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_launch_arguments(parser, "display")
     add_page_options(parser)
     parser.add_argument(
-        "--html", metavar="FILE", help="write a self-contained page with sliders that needs no server, and exit"
+        "--html", metavar="FILE", help="write a self-contained page with sliders, which needs no server, and exit"
     )
     parser.add_argument(
         "--live",

@@ -22,7 +22,7 @@ def encoding_repairs(sources: Iterable[Source]) -> tuple[Repair, ...]:
         at, what = source.flaw
         place = source.position(at)
         if what.startswith("UTF-"):
-            message = f"the file is in {what}, which other readers reject; it is decoded: save it as UTF-8"
+            message = f"the file is in {what}, which other readers reject; urdfkit decodes it: save the file as UTF-8"
             found.append(Repair("xacro", "E001", message, place))
         else:
             message = f"{what} is not UTF-8; it is read as the character U+FFFD: save the file as UTF-8"

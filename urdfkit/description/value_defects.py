@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from urdfkit.position import Position
 
 _EFFECTS = {
-    "lower": ("J405", "the two are exchanged"),
+    "lower": ("J405", "the two limits are swapped"),
     "damping": ("J419", "it is ignored"),
     "friction": ("J419", "it is ignored"),
 }

@@ -78,8 +78,8 @@ def _follow(joints: Mapping[str, Joint], joint: Joint, resolved: dict[str, Coupl
         place = (at.mimic or joint.mimic).element.origin.position  # type: ignore[union-attr]
         if at.type not in _SINGLE:
             raise KinematicsError(
-                f"joint `{at.name}` takes part in a <mimic> but is {at.type}: "
-                "only revolute, continuous and prismatic joints can",
+                f"joint `{at.name}` is used in a <mimic> but is {at.type}: "
+                "only revolute, continuous and prismatic joints support <mimic>",
                 position=place,
             )
         if at.mimic is None:

@@ -208,7 +208,7 @@ class Kinematics:
             else:
                 joint, _, part = name.rpartition("/")
                 if part.startswith("rot_"):
-                    raise KinematicsError(f"`{name}` is one number of a quaternion: it has no velocity of its own")
+                    raise KinematicsError(f"`{name}` is one number of a quaternion: it has no separate velocity")
                 along.setdefault(joint, {})[part] = value
         q = self.neutral() if q is None else q
         for joint, parts in along.items():
@@ -358,4 +358,4 @@ class Kinematics:
 
     def _require_floating(self) -> None:
         if not self.floating_base:
-            raise KinematicsError(f"root link `{self.root}` of robot `{self.robot.name}` does not float")
+            raise KinematicsError(f"root link `{self.root}` of robot `{self.robot.name}` has no floating base")

@@ -41,7 +41,7 @@ def require_independent(robot: Robot, couplings: Mapping[str, Coupling], names: 
         if coupling.master is None:
             raise KinematicsError(f"joint `{name}` mimics a fixed joint: it stays at {coupling.offset:g}")
         law = f"{coupling.multiplier:g} · {coupling.master} + {coupling.offset:g}"
-        raise KinematicsError(f"joint `{name}` mimics another ({law}); set `{coupling.master}` instead")
+        raise KinematicsError(f"joint `{name}` mimics another joint ({law}); set `{coupling.master}` instead")
     if name not in names:
         raise KinematicsError(unknown_variable(robot, couplings, names, name))
     return name

@@ -36,7 +36,9 @@ def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:
 
             hull = trimesh.convex.convex_hull(trimesh.Trimesh(points, faces, process=False))
         except ImportError as error:
-            raise MissingDependencyError(f"{name} is not closed, its hull needs scipy: pip install scipy") from error
+            raise MissingDependencyError(
+                f"{name} is not closed, and its convex hull needs scipy: pip install scipy"
+            ) from error
         except Exception:
             return _flat(name)
         points, faces = np.asarray(hull.vertices, dtype=float), np.asarray(hull.faces)

@@ -184,10 +184,10 @@ def test_bag_info(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "reason"),
     [
-        ("a.mcap", b"nothing", "its content is not that of a .mcap file"),
-        ("a.db3", b"\x89PNG", "its content is not that of a .db3 file"),
-        ("a.bag", b"\x89PNG", "its content is not that of a .bag file"),
-        ("a.bag", b"", "its content is not that of a .bag file"),
+        ("a.mcap", b"nothing", "its content does not have the format of a .mcap file"),
+        ("a.db3", b"\x89PNG", "its content does not have the format of a .db3 file"),
+        ("a.bag", b"\x89PNG", "its content does not have the format of a .bag file"),
+        ("a.bag", b"", "its content does not have the format of a .bag file"),
         ("a.txt", b"", "recordings are .mcap, .db3, .bag files"),
     ],
 )

@@ -176,4 +176,4 @@ def test_without_a_terminal_one_line_says_so() -> None:
     command = [sys.executable, "-m", "urdfkit", "sim", "teleop", "simpleton", "--terminal"]
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
     assert done.returncode == 2
-    assert done.stderr == "urdfkit: --terminal reads the keys of a terminal, and standard input is not one\n"
+    assert done.stderr == "urdfkit: --terminal reads the keys of a terminal, but standard input is not a terminal\n"

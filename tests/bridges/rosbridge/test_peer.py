@@ -314,4 +314,4 @@ def test_messages_that_wait_for_a_busy_simulation_are_bounded(server, simulated,
         tracemalloc.stop()
     client.line.close()
     for answer in dropped:
-        assert "10000 calls or 64 MB of messages are queued for the simulation; this one is dropped" in answer
+        assert "10000 calls or 64 MB of messages are queued for the simulation; this message is dropped" in answer

@@ -23,7 +23,7 @@ ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:part name="b" parent="base" m="1"/>
 </robot>
 """
-HELP = "set a mass greater than 0 kg; macro `ball` uses it at parts.xacro:4:17"
+HELP = "set a mass greater than 0 kg; macro `ball` uses the value at parts.xacro:4:17"
 
 
 @pytest.mark.parametrize(

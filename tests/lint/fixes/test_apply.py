@@ -185,7 +185,7 @@ def test_a_change_for_the_worse_is_rolled_back(write, monkeypatch):
     fixed = mend(path)
     (note,) = fixed.notes
     assert note.startswith(
-        "T203 at r.xacro:8 was not fixed: that would have caused E001 at r.xacro:8, unexpected `<`: "
+        "T203 at r.xacro:8 was not fixed: the fix would have caused E001 at r.xacro:8, unexpected `<`: "
     )
     assert [change.after.decode() for change in fixed.changes] == [
         GOOD.replace("</robot>", '<link name="a"/><link name="b"/></robot>')
@@ -251,7 +251,7 @@ def test_what_is_for_the_worse_leaves_other_findings_of_its_rule_their_fixes(wri
     )
     fixed = mend(path, unsafe=True)
     (note,) = fixed.notes
-    assert note.startswith("J402 at r.urdf:4 was not fixed: that would have caused J403 at r.urdf:4, ")
+    assert note.startswith("J402 at r.urdf:4 was not fixed: the fix would have caused J403 at r.urdf:4, ")
     (change,) = fixed.changes
     assert change.after.decode() == path.read_text().replace('"Fixed"', '"fixed"').replace('"rigid"', '"fixed"')
     assert fixed.fixed == {"J402": 2}
@@ -273,7 +273,7 @@ def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkey
     fixed = mend(path)
     assert fixed.changes == ()
     (note,) = fixed.notes
-    assert "was not fixed: that would have caused T202 at r.urdf:13, " in note
+    assert "was not fixed: the fix would have caused T202 at r.urdf:13, " in note
 
 
 @pytest.mark.git

@@ -99,7 +99,7 @@ def test_a_fix_that_changes_more_than_its_finding_names_is_refused(write, monkey
     monkeypatch.setattr(apply, "unnamed_changes", lambda *_: [base])
     fixed = fix([Entry(path)], Options(), within=[path.parent])
     assert fixed.changes == ()
-    assert "was not fixed: that would also have changed <link> at" in fixed.notes[0]
+    assert "was not fixed: the fix would also have changed <link> at" in fixed.notes[0]
     assert fixed.notes[0].endswith("r.urdf:2")
 
 

@@ -117,7 +117,7 @@ def test_a_process_that_fails_is_reported_once_and_the_simulation_goes_on(engine
     driven(engine, 2)
     assert engine.steps == 4
     assert live.reports[1:] == [None]
-    assert live.warnings == ["the physics kernel cannot be compiled, so that the simulation remains slow: MemoryError"]
+    assert live.warnings == ["the physics kernel cannot be compiled, so the simulation remains slow: MemoryError"]
 
 
 @pytest.mark.parametrize(

@@ -70,8 +70,8 @@ def follow(simulator: Simulator, trajectory: JointPath) -> None:
             _publish_positions(simulator, topics[number], number, trajectory.time, columns)
         else:
             raise SimulationError(
-                f"joint `{common[0]}`: controller `{controller.name}` of type {controller.type} commands it and takes "
-                "neither trajectories nor positions"
+                f"joint `{common[0]}`: controller `{controller.name}` of type {controller.type} commands it and "
+                "accepts neither trajectories nor positions"
             )
     if left:
         _drive(simulator, trajectory.time, left, _columns(simulator, trajectory, left))

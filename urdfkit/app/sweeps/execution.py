@@ -56,7 +56,7 @@ def execute(
             except (KilledWorker, CancelledError):  # cancelled: the scenario was in the killed process
                 raise UrdfkitError(
                     f"a worker process of the sweep was killed, possibly for lack of memory; run the same command with "
-                    f"fewer --workers than {workers}: it continues with the remaining runs"
+                    f"fewer --workers than {workers}, which continues with the remaining runs"
                 ) from None
             yield outcome
             for following in submit(1):

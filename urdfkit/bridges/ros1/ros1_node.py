@@ -72,7 +72,10 @@ class Ros1Node:
         if is_remote(self.uri) and host == "127.0.0.1":
             report(f"warning: the master is on another machine: set ROS_IP so that nodes there reach {name}")
         elif host != "127.0.0.1":
-            report("warning: everyone on the network can read and publish all ROS 1 topics; it is not encrypted")
+            report(
+                "warning: everyone on the network can read and publish all ROS 1 topics; "
+                "the connection is not encrypted"
+            )
 
     def writer(self, topic: str, type: str, quality: Quality) -> TopicPublisher:
         """Create a publisher."""

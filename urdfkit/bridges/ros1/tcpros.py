@@ -38,7 +38,7 @@ def read_header(connection: socket.socket) -> dict[str, str]:
     at = 0
     while at < len(content):
         if at + 4 > len(content):
-            raise TcprosError("the header is cut off")
+            raise TcprosError("the header is truncated")
         (size,) = LENGTH.unpack_from(content, at)
         entry = content[at + 4 : at + 4 + size]
         name, equals, value = entry.partition(b"=")

@@ -70,7 +70,7 @@ class ServerActions:
 
     def _end(self) -> None:
         while self._goals:
-            self._goals.popitem()[1].ended(ABORTED, None, "the server is gone")
+            self._goals.popitem()[1].ended(ABORTED, None, "the server has disconnected")
 
 
 class RosbridgeGoal:

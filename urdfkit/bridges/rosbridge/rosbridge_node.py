@@ -173,7 +173,7 @@ class RosbridgeNode:
                 self.operations[op](message)
         if not self._closed:
             self._closed = True
-            self._report(f"{self.description}: the server is gone")
+            self._report(f"{self.description}: the server has disconnected")
             self.gone()
 
 

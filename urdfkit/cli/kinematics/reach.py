@@ -64,12 +64,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="number of orientations, spread evenly (default: 50)",
     )
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--down", action="store_true", help="only orientations whose tool axis is -z of the base")
+    which.add_argument(
+        "--down", action="store_true", help="use only orientations with the tool axis along -z of the base"
+    )
     which.add_argument(
         "--cone",
         type=_cone,
         metavar="AXIS,DEG",
-        help="only orientations whose tool axis is within DEG degrees of AXIS (x, -z, … or X,Y,Z) of the base",
+        help="use only orientations with the tool axis within DEG degrees of AXIS of the base (x, -z, … or X,Y,Z)",
     )
     which.add_argument("--position-only", action="store_true", help="ignore the orientation")
     add("--tool-axis", type=_axis, metavar="AXIS", help="axis of TIP for --down and --cone (default: z)")
@@ -88,7 +90,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", type=Path, metavar="FILE", help="write the map to a .npz, .json or .ply file")
     add("--json", action="store_true", help="print one JSON value")
     add("--view", action="store_true", help="show the map in the browser, until interrupted")
-    add("--html", type=Path, metavar="FILE", help="write a self-contained page with the map that needs no server")
+    add("--html", type=Path, metavar="FILE", help="write the map as a self-contained page, which needs no server")
     add_page_options(parser)
 
 

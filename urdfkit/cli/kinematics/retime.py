@@ -23,7 +23,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.usage = "urdfkit retime ROBOT [key:=value ...] PATH.csv [--acceleration LIMITS] [--jerk LIMITS] [-o FILE]"
     parser.epilog = (
         "PATH.csv has the names of the joints in its first line, then one waypoint per line [rad or m]\n"
-        "limits, first found: --acceleration and --jerk, MoveIt's joint_limits.yaml, <limit> of the robot\n"
+        "limits are read from the first source that has them: --acceleration and --jerk, MoveIt's joint_limits.yaml, "
+        "<limit> of the robot\n"
         "examples:\n"
         "  urdfkit retime seven_dof_arm waypoints.csv --acceleration 3 -o motion.csv\n"
         "  urdfkit retime arm.urdf waypoints.csv --acceleration 3,elbow=2 --jerk 30\n"

@@ -65,7 +65,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON value, with the samples of each pair")
     parser.add_argument("--view", action="store_true", help="show the pairs in the browser, until interrupted")
     parser.add_argument(
-        "--html", type=Path, metavar="FILE", help="write a self-contained page with the pairs that needs no server"
+        "--html", type=Path, metavar="FILE", help="write the pairs as a self-contained page, which needs no server"
     )
     add_robot_options(parser)
     add_page_options(parser)

@@ -21,7 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dof", choices=("3", "4", "5", "6", "7"), default="6", metavar="N", help="joints, 3 to 7")
     parser.add_argument(
         "--name",
-        help="prefix of links and joints, unless it is `arm` (default: arm, numbered from the second on)",
+        help="name of the arm and, unless it is `arm`, prefix of its links and joints (default: arm, then arm_2 …)",
     )
     parser.add_argument(
         "--parent", metavar="LINK", help="link to mount the arm on (default: base_link, or the heaviest link)"

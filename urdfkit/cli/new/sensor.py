@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sensor", nargs="?", metavar="SENSOR", help=", ".join(_KINDS))
     add_description(parser)
     parser.add_argument(
-        "--name", help="name of the sensor and prefix of its links (default: the kind, numbered from the second on)"
+        "--name", help="name of the sensor and prefix of its links (default: the kind, such as lidar, then lidar_2 …)"
     )
     parser.add_argument(
         "--parent", metavar="LINK", help="link to mount the sensor on (default: base_link, or the heaviest link)"

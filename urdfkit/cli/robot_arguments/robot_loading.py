@@ -39,7 +39,7 @@ def add_strict(parser: argparse.ArgumentParser, example: str = "a second root li
     parser.add_argument(
         "--strict",
         action="store_true",
-        help=f"reject robots that are repaired with a warning by default, such as robots with {example}",
+        help=f"reject defective robots, such as robots with {example}, instead of repairing them with a warning",
     )
 
 

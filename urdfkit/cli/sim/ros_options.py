@@ -24,7 +24,8 @@ def add_ros(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--ros1",
         action="store_true",
-        help="the same for ROS 1, with services, at the master in ROS_MASTER_URI; only nodes of this machine connect "
+        help="publish all topics to ROS 1 nodes, subscribe to their commands and serve services, with the master in "
+        "ROS_MASTER_URI; only nodes of this machine connect "
         "unless ROS_IP or ROS_HOSTNAME is set",
     )
     group.add_argument("--ros-domain", type=int, metavar="N", help="domain of ROS 2 (default: ROS_DOMAIN_ID, else 0)")

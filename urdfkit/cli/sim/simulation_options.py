@@ -20,7 +20,7 @@ def add_repair_options(parser: argparse.ArgumentParser) -> None:
         type=option_values.positive,
         default=1000.0,
         metavar="KG/M3",
-        help="density to estimate the mass of moving links without one [kg/m³] (default: 1000)",
+        help="density for the estimated mass of moving links without a mass [kg/m³] (default: 1000)",
     )
 
 

@@ -49,8 +49,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         choices=("pause", "reset", "change"),
-        help="requests that other pages may send while a page drives (repeatable): pause (also step and speed), reset, "
-        "or change (edit the world and publish); default: only stop the robots",
+        help="requests to accept from other pages while a page drives (repeatable): pause (also step and speed), "
+        "reset, or change (edit the world and publish); by default, other pages can only stop the robots",
     )
     parser.epilog = (
         "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser\n"

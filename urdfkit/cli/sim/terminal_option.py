@@ -39,8 +39,8 @@ def check_terminal(arguments: argparse.Namespace, *, browser: bool) -> bool:
     if not arguments.terminal:
         return arguments.terminal is None and not browser and can_read_keys()
     if not can_read_keys():
-        where = "Windows is not supported" if sys.platform == "win32" else "standard input is not one"
-        raise UsageError(f"--terminal reads the keys of a terminal, and {where}")
+        where = "Windows is not supported" if sys.platform == "win32" else "standard input is not a terminal"
+        raise UsageError(f"--terminal reads the keys of a terminal, but {where}")
     return True
 
 

@@ -16,7 +16,7 @@ from urdfkit.cli.topic.pub import message_of
 if TYPE_CHECKING:
     from urdfkit.view.protocol.client import Client
 
-SUBCOMMANDS = {"list": "list the actions", "send": "send a goal, and print its result when it has ended"}
+SUBCOMMANDS = {"list": "list the actions", "send": "send a goal, wait until it ends, and print its result"}
 """Subcommand → its description."""
 PERIOD = 0.05
 """Seconds between two requests for the state of a goal."""

@@ -103,7 +103,7 @@ def message_of(words: list[str]) -> Any:
     except yaml.YAMLError as error:
         raise UsageError(f"the message is not YAML: {' '.join(str(error).split())}") from error
     except (TypeError, ValueError) as error:
-        raise UsageError(f"`{' '.join(words)}` holds a value that no message supports: {error}") from error
+        raise UsageError(f"`{' '.join(words)}` contains a value that no message supports: {error}") from error
     if len(read) == 1:
         # The one field of a std_msgs/Float64 may be written alone.
         return read if not isinstance(read[0], dict | list | None) else read[0]

@@ -152,7 +152,7 @@ class Settings:
         return found
 
     def _missing(self, path: str) -> DescriptionError:
-        hint = did_you_mean(path, self.children) or ", which it needs"
+        hint = did_you_mean(path, self.children) or ", which is required"
         return DescriptionError(f"`{self.name}` has no `{path}`" + hint, position=self.place)
 
 

@@ -120,7 +120,7 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         raise XmlError("the file is empty", position=Position(source.file, 1, 1))
     if (tags := source.text.count("<")) > MAX_TAGS:
         message = (
-            f"the file has {tags} tags and comments: more than {MAX_TAGS} are rejected, those from here on; "
+            f"the file has {tags} tags and comments, and those from here on exceed the limit of {MAX_TAGS}; "
             "no option raises the limit: split the file"
         )
         first = next(islice(re.finditer("<", source.text), MAX_TAGS, None))
@@ -219,7 +219,8 @@ def refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
         XmlError: always.
     """
     raise XmlError(
-        f"declares the entity `{name}`: entity declarations are rejected, as they can grow without bound or read files",
+        f"declares the entity `{name}`: entity declarations are rejected, because they can grow without bound or read "
+        "files",
         position=_here(source, parser),
     )
 

@@ -43,7 +43,7 @@ def read_path(file: Path) -> JointPath:
     except FileNotFoundError:
         raise ResourceError(f"{file}: no such file{near_path(file)}") from None
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not a text in UTF-8"
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
         raise ResourceError(f"{file}: cannot be read: {reason}") from None
     rows = [(line, row) for line, row in enumerate(csv.reader(text.splitlines()), 1) if any(map(str.strip, row))]
     if not rows:

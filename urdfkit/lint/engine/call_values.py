@@ -127,7 +127,7 @@ def _cause(found: set[ValueSource], text: str, finding: Finding) -> ValueSource 
 
 
 def _moved(finding: Finding, trail: Trail) -> Finding:
-    name = f"macro `{finding.chains[0][0].macro}` uses it" if finding.chains else "it is used"
+    name = f"macro `{finding.chains[0][0].macro}` uses the value" if finding.chains else "the value is used"
     used = f"{name} at {finding.file}:{finding.line}:{finding.column}"
     help = f"{finding.help}; {used}" if finding.help else used
     return type(finding)(**{**finding.__dict__, "span": trail[-1], "help": help, "trail": (finding.span, *trail)})

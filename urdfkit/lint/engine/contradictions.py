@@ -38,6 +38,10 @@ def _moved(span: Span, group: Iterable[Finding]) -> Finding:
     first, *_ = sorted(group, key=lambda one: (SEVERITIES.index(one.severity), one.code, one.span))
     places = {each.span: each for each in group if each.span != span}
     related = tuple(places[each] for each in sorted(places))
-    help = first.help if first.is_other_wrong else "the other places contradict it; correct this one or all of them"
+    help = (
+        first.help
+        if first.is_other_wrong
+        else "the other places contradict this one; correct this place or all of the others"
+    )
     details = {"help": help, "span": span, "fix": None, "chains": (), "cause": "", "other": None, "related": related}
     return Finding(**{**first.__dict__, **details})

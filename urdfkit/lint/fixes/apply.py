@@ -132,10 +132,10 @@ class _Fixer:
         if len(findings) == 1:
             cause = "the finding would remain"
             if worse:
-                cause = f"that would have caused {_listed(worse)}"
+                cause = f"the fix would have caused {_listed(worse)}"
             elif unnamed:
                 place = unnamed[0].origin.position
-                cause = f"that would also have changed <{unnamed[0].tag}> at {place.file}:{place.line}"
+                cause = f"the fix would also have changed <{unnamed[0].tag}> at {place.file}:{place.line}"
             self.refused.add(_key(findings[0]))
             self.notes[f"{findings[0].code} at {findings[0].file}:{findings[0].line} was not fixed: {cause}"] = None
             return None

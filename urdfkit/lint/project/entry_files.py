@@ -231,7 +231,7 @@ def _related_robots(path: Path) -> list[Entry]:
         robots = [entry for entry in _robots_in(path.absolute().parent) if not entry.path.name.endswith(SRDF)]
         if found := [entry for entry in robots if not entry.is_library]:
             return [Entry(_relative(entry.path), (path,)) for entry in found]
-        raise ResourceError(f"{path}: no robot description in its folder, and not in a package")
+        raise ResourceError(f"{path}: the folder contains no robot description and is not in a package")
     if package is None:
         raise ResourceError(f"{path}: not in a package, so no robot belongs to it")
     return _robots_of(package / "package.xml", path)

@@ -42,7 +42,7 @@ def clutter(
                 break
         else:
             raise UsageError(
-                f"no room for --count {count} obstacles on {length:g} m by {width:g} m; use fewer or smaller ones "
+                f"no room for --count {count} obstacles on {length:g} m by {width:g} m; use fewer or smaller obstacles "
                 "(--largest), or a larger --length or --width"
             )
         placed.append((x, y, radius))

@@ -63,7 +63,7 @@ def impossible(tensor: ArrayLike, tolerance: float = IMPOSSIBLE) -> str:
     if a < -tolerance * max(abs(a), abs(c)):
         why = "one is negative"
     elif c - a - b > tolerance * abs(c):
-        why = "the largest exceeds the sum of the others, which no distribution of mass has"
+        why = "the largest exceeds the sum of the others, which is physically impossible"
     else:
         return ""
     return f"of its principal moments {a:.6g}, {b:.6g} and {c:.6g} kg·m² {why}"

@@ -80,5 +80,5 @@ class FreeBody:
 def _six(numbers: Sequence[float]) -> Array:
     values = np.array(numbers, dtype=float)
     if values.shape != (6,) or not np.isfinite(values).all():
-        raise SimulationError(f"{tuple(numbers)} must be six finite numbers, the linear part first")
+        raise SimulationError(f"{tuple(numbers)} must be six finite numbers, with the linear part first")
     return values

@@ -98,7 +98,7 @@ class InterpretedKernel:
         fault = process.fault
         self.close()
         if fault is not None:
-            self._warn(f"the physics kernel cannot be compiled, so that the simulation remains slow: {fault}")
+            self._warn(f"the physics kernel cannot be compiled, so the simulation remains slow: {fault}")
         else:
             self._compiled = self._load()
             if self._compiled is None:

@@ -229,7 +229,7 @@ def test_only_the_first_of_two_that_want_a_joint_is_started(make: Make) -> None:
     )
     simulator = make(yaml, note=notes.append)
     assert [status.state for status in simulator.controllers.list()] == ["active", "active", "inactive"]
-    late = "not started: controller `late` needs joint `elbow`, which `arm_controller` has; stop one of them"
+    late = "not started: controller `late` needs joint `elbow`, which `arm_controller` controls; stop one of the two"
     assert [note for note in notes if re.match(r"\S+yaml:\d+:\d+: " + re.escape(late), note)]
     simulator.controllers.switch(start=["late"], stop=["arm_controller"])
     assert [status.state for status in simulator.controllers.list()] == ["active", "inactive", "active"]
@@ -239,7 +239,7 @@ def test_only_the_first_of_two_that_want_a_joint_is_started(make: Make) -> None:
     ("old", "new", "message"),
     [
         ("elbow]", "elbo]", "arm.yaml:10:24: no joint `elbo` in robot `arm`; did you mean `elbow`?"),
-        ("[position]\n", "[velocity]\n", "arm.yaml:11:26: joint `shoulder` takes position, not velocity"),
+        ("[position]\n", "[velocity]\n", "arm.yaml:11:26: joint `shoulder` accepts position, not velocity"),
         ("[position]\n", "[positon]\n", "arm.yaml:11:26: unknown interface `positon`; did you mean `position`?"),
         ("    joints: [shoulder, elbow]\n", "", "arm.yaml:8:1: `arm_controller` has no `joints`"),
         ("JointTrajectoryController\n", "JointTrajectoryControler\n", "did you mean `joint_trajectory_controller/J"),

@@ -469,7 +469,7 @@ def test_what_is_spawned_is_started_and_the_file_is_named(make: Make) -> None:
 def test_start_stop_switch_and_conflicts(make: Make) -> None:
     yaml = POSITIONS + "  c: {type: effort_controllers/JointEffortController, joint: shoulder}\n"
     simulator = make(yaml, spawned=("states", "a", "b"))
-    with pytest.raises(SimulationError, match="controller `c` needs joint `shoulder`, which `a` has"):
+    with pytest.raises(SimulationError, match="controller `c` needs joint `shoulder`, which `a` controls"):
         simulator.controllers.start("c")
     simulator.controllers.switch(start=["/arm/c"], stop=["a"])
     states = {status.name: (status.state, status.claims) for status in simulator.controllers.list()}
@@ -569,9 +569,9 @@ def test_without_any_file_it_says_so(tmp_path: Path) -> None:
         ("arm:\n  a: {type: effort_controllers/JointEfortController, joint: shoulder}\n",
          "arm.yaml:2:13", "did you mean `effort_controllers/JointEffortController`?"),
         ("arm:\n  s: {type: joint_state_controller/JointStateController}\n",
-         "arm.yaml:2:3", "`s` has no `publish_rate`, which it needs"),
+         "arm.yaml:2:3", "`s` has no `publish_rate`, which is required"),
         ("arm:\n  a: {type: position_controllers/JointPositionController, joint: shoulder}\n",
-         "arm.yaml:2:13", "joint `shoulder` takes effort, not position; check its <transmission> (rejected: strict)"),
+         "arm.yaml:2:13", "joint `shoulder` accepts effort, not position; check its <transmission> (rejected: strict)"),
         ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder}\n",
          "arm.yaml:2:3", "`a` has no `pid`"),
         ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder, pid: {p: x}}\n",

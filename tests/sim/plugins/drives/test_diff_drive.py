@@ -360,9 +360,9 @@ def test_models_that_rely_on_legacy_mode_are_reported(make: Make, write_rover: C
 
     assert notes(rover("left"), None) == notes(rover("left", "<legacyMode>false</legacyMode>"), None) == []
     (written,) = notes(rover("left", "<legacyMode>true</legacyMode>"), None)
-    assert "legacyMode (left and right swapped, until Lunar) is off: left is left; --ros-distro kinetic" in written
+    assert "up to ROS Lunar, is ignored: the sides are not swapped; --ros-distro kinetic" in written
     (crossed,) = notes(rover("right"), None)
-    assert "joint `right_joint` turns the robot as a right wheel does" in crossed
+    assert "joint `right_joint` turns the robot like a right wheel" in crossed
     assert notes(rover("right"), "indigo") == notes(rover("right"), "noetic") == []
 
 

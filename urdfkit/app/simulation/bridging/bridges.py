@@ -138,4 +138,7 @@ def _announce(name: str, server: WebSocketServer) -> None:
     for url in server.urls:
         note(f"{name}: {url}")
     if server.needs_token:
-        note(f"warning: everyone with this address can read and publish all topics of {name}; it is not encrypted")
+        note(
+            f"warning: everyone with this address can read and publish all topics of {name}; "
+            "the connection is not encrypted"
+        )

@@ -38,7 +38,7 @@ def sections_elsewhere(model: Model) -> Iterator[tuple[Span, str]]:
         span = place_of(node, model) if is_rare else span_of(source, key)
         if span is not None and (span.file, span.line) not in seen:
             seen.add((span.file, span.line))
-            yield span, f"node `/{name}` has no section in {source.file.rpartition('/')[2]}, which has `/{path}`"
+            yield span, f"node `/{name}` has no section in {source.file.rpartition('/')[2]}; it has a section `/{path}`"
 
 
 def _readers(tree: LaunchContents, model: Model) -> Iterator[tuple[LaunchContents, LaunchNode, str, Source, str]]:

@@ -39,7 +39,7 @@ def left_out_plugins(model: Model) -> Iterator[tuple[Span, str]]:
         name = _deciding(commands[0], model)
         place = _place(tree, name, commands[0].arguments[name], spawner, model) if name else None
         if place is not None:
-            message = f"`{name}:={commands[0].arguments[name]}` excludes the plugin with the controller manager"
+            message = f"`{name}:={commands[0].arguments[name]}` excludes the plugin that runs the controller manager"
             yield place, f"{message}, so `{spawner.program}` waits forever"
 
 

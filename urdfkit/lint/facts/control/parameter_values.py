@@ -336,7 +336,7 @@ def _misplaced(root: Node, node: Node) -> Defects:
     is_of_types = any(_has_type(value) for _, value in node.entries)
     for key, _ in node.entries:
         if key.text in _OF_CONTROLLERS and (is_of_types or (node is root and has_sections)):
-            yield key, f"`{key.text}` is next to the controllers, not in one; indent it"
+            yield key, f"`{key.text}` is at the level of the controllers, not in a controller; indent it"
         elif key.text == PARAMETERS and node is root and has_sections:
             yield key, f"`{PARAMETERS}` belongs to no node; indent it below the name of a node"
 

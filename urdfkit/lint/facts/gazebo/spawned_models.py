@@ -35,7 +35,7 @@ def spawned_in_the_ground(node: Started, model: Model) -> Iterator[tuple[int, st
         lowest = _lowest(model) if height is not None else None
         if word is not None and height is not None and lowest is not None and height + lowest < -_MAX_DEPTH:
             depth = -(height + lowest)
-            yield word.start, word.name, f"at this height the robot reaches {depth:.3g} m into the ground"
+            yield word.start, word.name, f"at this height the robot extends {depth:.3g} m into the ground"
 
 
 def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
@@ -66,7 +66,7 @@ def _own_parameters(node: Started, model: Model) -> Iterator[tuple[int, str, str
     for option, word in zip(node.arguments, node.arguments[1:], strict=False):
         is_name = option is not None and word is not None and option.name == "-param" and "$" not in word.name
         if word is not None and is_name and not is_open and word.name not in parameters:
-            message = f"`create` reads its own parameter `{word.name}`, which it does not have"
+            message = f"`create` reads `{word.name}` from its own parameters, which do not contain it"
             yield word.start, word.name, f"{message}; write `-topic robot_description`"
 
 

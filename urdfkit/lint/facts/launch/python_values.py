@@ -38,10 +38,10 @@ _ACTIONS = (
 )
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer", "ComposableNode")
 _ONLY_FIRST = {
-    "Command": "`Command` has one argument; write its words in one list",
+    "Command": "`Command` accepts one argument; write its words in one list",
     "DeclareLaunchArgument": "write `default_value=` before this argument",
     "LaunchConfiguration": "write `default=` before this argument",
-    "PathJoinSubstitution": "`PathJoinSubstitution` has one argument; write the parts in one list",
+    "PathJoinSubstitution": "`PathJoinSubstitution` accepts one argument; write the parts in one list",
 }
 """Class with one argument without a name → what to do with a second one."""
 
@@ -110,7 +110,7 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         yield from _transition(words, reader)
     elif kind == "LaunchDescription":
         if len(call.args) > 1:
-            yield call.args[1], "`LaunchDescription` has one list of actions; join the lists with `+`"
+            yield call.args[1], "`LaunchDescription` accepts one list of actions; join the lists with `+`"
         elif call.args and _called(call.args[0], reader) in _ACTIONS:
             yield call.args[0], "the argument of `LaunchDescription` is not a list; write it in brackets"
 
@@ -133,7 +133,7 @@ def _of_command(call: ast.Call, kind: ast.expr | None, reader: LaunchReader) -> 
     if kind is None:
         yield call, "without `value_type`, the launch reads the output of the command as YAML; add `value_type=str`"
     elif isinstance(kind, ast.Name) and kind.id in ("bool", "int", "float", "list", "dict"):
-        yield kind, f"the output of the command is a text, not a value of type `{kind.id}`; write `str`"
+        yield kind, f"the output of the command is a string, not a value of type `{kind.id}`; write `str`"
 
 
 _TRANSITIONS = {
@@ -168,7 +168,7 @@ def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, rea
         if _is_text(item):
             yield item, f"`{word}` has a string; write the variable of an action without quotes"
         elif isinstance(item, ast.Name) and isinstance(target, ast.Name) and item.id == target.id:
-            yield target, f"`{target.id}` is started by its own exit, so it never starts"
+            yield target, f"`{target.id}` waits for its own exit, so it never starts"
 
 
 def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defects:
@@ -271,7 +271,7 @@ def _compared(node: ast.Compare | ast.If | ast.IfExp, reader: LaunchReader) -> D
         if all(isinstance(each, (ast.Eq, ast.NotEq, ast.In)) for each in node.ops):
             use = next((each for each in parts if _called(each, reader) == "LaunchConfiguration"), None)
             if use is not None:
-                message = "this comparison reads the object and not its value; use `EqualsSubstitution` in a condition"
+                message = "this compares the object, not its value; use `EqualsSubstitution` in a condition"
                 yield node, message
             yield from _never_equal(node, reader)
     elif _called(node.test, reader) == "LaunchConfiguration":

@@ -125,7 +125,7 @@ def repeated_simulators(source: Source, tree: ast.Module) -> Iterator[tuple[Span
         first = servers.setdefault(key, condition)
         if first is not condition:
             place_of_condition = source.span(*place(source, condition))
-            yield place_of_condition, f"Gazebo starts under the condition on line {first.lineno} too; both start"
+            yield place_of_condition, f"line {first.lineno} also starts Gazebo under this condition"
 
 
 def _has_condition(call: ast.Call) -> bool:

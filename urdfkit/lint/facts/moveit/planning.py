@@ -97,7 +97,7 @@ def _pipeline(node: Node) -> Defects:
     key = next((key for key, _ in node.entries if key.text == wrong), None)
     if key is not None and node.find(right) is None:
         release = "before Jazzy" if is_old else "since Jazzy"
-        yield key, f"`request_adapters` has adapters of releases {release}, which read `{right}`, not `{wrong}`"
+        yield key, f"`request_adapters` lists adapters of releases {release}, which read `{right}`, not `{wrong}`"
     planners = [text for each in (wrong, right) if (value := node.find(each)) is not None for text in value.texts()]
     name = "request_adapters" if is_old else "response_adapters"
     key = next((each for each, _ in node.entries if each.text == name), None)
@@ -105,7 +105,7 @@ def _pipeline(node: Node) -> Defects:
         yield key, f"`{name}` {WITHOUT_TIMES}"
 
 
-WITHOUT_TIMES = "has no time parameterization; add `AddTimeOptimalParameterization`, or trajectories have no times"
+WITHOUT_TIMES = "has no time parameterization; without `AddTimeOptimalParameterization`, trajectories have no times"
 
 
 def is_untimed(planners: Collection[str], adapters: Collection[str]) -> bool:
@@ -146,7 +146,7 @@ def _sensors(top: Node) -> Defects:
             yield sampled, f"`point_subsample` is {count:g}; it must be at least 1"
         is_same = shown is not None and source is not None and shown.text.strip("/") == source.text.strip("/")
         if plugin is not None and shown is not None and shown.text and is_same:
-            yield shown, "`filtered_cloud_topic` is the topic of the sensor, which then gets the filtered cloud too"
+            yield shown, "`filtered_cloud_topic` is the topic of the sensor, so MoveIt reads its own output"
         if plugin is not None and topic is not None and others and topic not in others:
             yield plugin, f"`{plugin.text}` reads `{topic}`, not `{others.pop()}`"
 

@@ -39,9 +39,9 @@ def monitor_defects(source: Source) -> Defects:
         into, out = group.find("cmd_vel_in_topic"), group.find("cmd_vel_out_topic")
         if into is not None and out is not None and into.text.strip("/") == out.text.strip("/"):
             if out.text.strip("/") == "cmd_vel":  # the default, which drives the robot
-                yield into, f"`cmd_vel_in_topic` is the topic that the node publishes, `{out.text}`"
+                yield into, f"`cmd_vel_in_topic` is `{out.text}`, the topic that the node publishes"
             else:
-                yield out, f"`cmd_vel_out_topic` is the topic to which the node subscribes, `{into.text}`"
+                yield out, f"`cmd_vel_out_topic` is `{into.text}`, the topic to which the node subscribes"
         for name, types in _LISTS.items():
             listed = group.find(name)
             for item in listed.items if listed is not None else ():
@@ -97,7 +97,7 @@ def mux_defects(source: Source) -> Defects:
                     message = (
                         f"inputs `{by_priority[number]}` and `{name}` of twist_mux have the same priority, {number:g}"
                     )
-                    yield value, f"{message}; only one of them passes"
+                    yield value, f"{message}; only one of them is forwarded"
                 by_priority.setdefault(number, name)
             yield from _unending(inputs)
             for name, entry in _inputs(group.find("locks")):
@@ -106,7 +106,7 @@ def mux_defects(source: Source) -> Defects:
                 if value is None or number is None or not by_priority:
                     continue
                 if 0 < number <= min(by_priority):
-                    yield value, f"lock `{name}` has the priority {number:g}, and no input has a lower one to stop"
+                    yield value, f"lock `{name}` has the priority {number:g}, but no input has a lower priority"
                     continue
                 if not re.search(r"stop|emergency", name, re.I):
                     continue
@@ -125,7 +125,7 @@ def _unending(inputs: list[tuple[str, Node]]) -> Defects:
         value = entry.find("timeout")
         is_above = own is not None and any(other is not None and other < own for other in priorities)
         if value is not None and number_of(value) == 0.0 and is_above:
-            yield value, f"`timeout` of input `{name}` is 0, so its last command blocks the other inputs for ever"
+            yield value, f"`timeout` of input `{name}` is 0, so its last command blocks the other inputs forever"
 
 
 def _inputs(node: Node | None) -> list[tuple[str, Node]]:

@@ -166,7 +166,7 @@ def _window(each: Costmap) -> Defects:
         value = each.group.find(name)
         size = number_of(value)
         if value is not None and size is not None and 0.0 < size < 2.0 * reach:
-            message = f"`{name}` is {size:g} m, but the robot reaches {reach:.3g} m from the middle of the costmap"
+            message = f"`{name}` is {size:g} m, but the robot extends {reach:.3g} m from the middle of the costmap"
             yield each.source, value, message
 
 

@@ -206,7 +206,7 @@ def _plugins(node: Node) -> Defects:
         for item, word in listed:
             has_type = key.text == "observation_sources" or names in DEFAULT_LISTS
             if word in defined and not has_type and "plugin" not in _keys(defined[word][1]):
-                yield defined[word][0], f"`{word}`, which `{key.text}` lists, has no `plugin`"
+                yield defined[word][0], f"`{key.text}` lists `{word}`, whose section has no `plugin`"
             if word in defined or any(each.text.startswith(f"{word}.") for each, _ in node.entries):
                 continue
             near = nearest(word, unlisted, cutoff=0.6) or (
@@ -318,7 +318,7 @@ def _stopped(group: Node) -> Defects:
         if width is not None and most is not None and 0.0 < most <= width:
             yield (
                 band,
-                f"`deadband_velocity` has {width:g}, not less than `max_velocity`, {most:g}: the robot never moves",
+                f"`deadband_velocity` contains {width:g}, not below `max_velocity`, {most:g}: the robot never moves",
             )
             break
     rate, timeout = number_of(group.find("smoothing_frequency")), group.find("velocity_timeout")

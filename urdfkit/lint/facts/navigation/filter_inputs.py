@@ -51,7 +51,7 @@ def filter_defects(group: Node, controllers: frozenset[str]) -> Iterator[tuple[N
             others = [each for each in sorted(inputs) if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", each)]
             free = [each for each in others if f"{each}_config" not in inputs]
             hint = Suggestion(f"{free[0]}_config", at[1]) if len(free) == 1 else ""
-            yield key, f"`{key.text}` has no topic `{at[1]}`" + hint
+            yield key, f"`{key.text}` has no effect, because the topic `{at[1]}` is not set" + hint
         if at[2] is not None and at[2] not in _OF_INPUTS:
             near = next((each for each in _OF_INPUTS if is_slip(at[2], each) or at[2].startswith(f"{each}u")), None)
             near = near or ("remove_gravitational_acceleration" if at[2].startswith("remove_") else None)

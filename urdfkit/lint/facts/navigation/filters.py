@@ -203,10 +203,10 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
         kind = name.rstrip("0123456789")
         other = seen.setdefault((kind, topic.text.strip("/")), name)
         if topic.text and other != name:
-            yield each.source, topic, f"`{name}` and `{other}` are the same topic `{topic.text}`"
+            yield each.source, topic, f"`{name}` and `{other}` are both the topic `{topic.text}`"
         both = [at for at in (0, 1) if values[at] in _TRUE and values[at + _AXES.index("vx")] in _TRUE]
         if kind == "odom" and topic.text.strip("/") in relative and len(both) > 1:
-            message = f"`{name}_config` fuses x, y and their velocities of the same odometry; fuse the velocities only"
+            message = f"`{name}_config` fuses positions and velocities of the same odometry; fuse the velocities only"
             yield each.source, config.items[0], message
             continue
         wrong = [at for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
@@ -215,7 +215,7 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
             yield (
                 each.source,
                 config.items[wrong[0]],
-                f"`{name}_config` fuses {', '.join(fused)}, which its messages do not have",
+                f"`{name}_config` fuses {', '.join(fused)}, which its messages do not contain",
             )
         if each.is_global and name in absolute and len(absolute) > 1 and topic.text.strip("/") in relative:
             message = (
@@ -232,7 +232,7 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
             yield (
                 each.source,
                 node,
-                "no input sets the position in the map frame; write false for an input that measures it",
+                "no input gives a position in the map frame; write false for an input that measures this position",
             )
 
 

@@ -58,7 +58,7 @@ def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
         ):
             number = number_of(resolution) or 0.0
             if number > 0.0 and not 1.0 / _FACTOR < number / centred < _FACTOR:
-                message = f"`resolution` is {number:g} m per pixel, but `origin` is half of the size of the image with"
+                message = f"`resolution` is {number:g} m per pixel, but `origin` is half of the image size for"
                 yield resolution, f"{message} {centred:g} m per pixel"
         length, low, high = number_of(resolution), number_of(free), number_of(occupied)
         if origin is not None and origin.kind == "list" and len(origin.items) != 3:

@@ -202,7 +202,7 @@ def _mixed(source: Source) -> Defects:
         yield (
             source,
             plugin,
-            f"`{plugin.text}` and the other plugins are from different releases; {release} it is `{right}`",
+            f"`{plugin.text}` and the other plugins are from different releases; {release}, write `{right}`",
         )
 
 

@@ -112,7 +112,11 @@ def paused_simulations(model: Model) -> Places:
         is_headless = re.search(_HEADLESS, text) is not None
         if re.search(_RUNNING, text) or not text.strip() or not (is_headless or has_controllers):
             continue
-        reason = "and it has no user interface to start it" if is_headless else "and controllers wait until it runs"
+        reason = (
+            "and it has no user interface to start the simulation"
+            if is_headless
+            else "and controllers wait until it runs"
+        )
         yield source, at, f"Gazebo starts paused, {reason}; add `-r`"
 
 

@@ -74,7 +74,7 @@ def _of_options(arguments: tuple[Named | None, ...], model: Model) -> Iterator[t
     if all(mixed):
         yield (
             max((each[0] for each in mixed), key=lambda word: word.start),
-            "the rotation is given as Euler angles and as a quaternion; remove one",
+            "the rotation is written as Euler angles and as a quaternion; remove one of the two",
         )
         return
     angles = [values.get(name) for name in _ANGLES]

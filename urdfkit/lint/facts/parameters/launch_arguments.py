@@ -72,7 +72,7 @@ def _refused(name: str, value: str, expected: Expected, is_passed: bool) -> str 
         listed = ", ".join(f"`{choice}`" for choice in choices[:5])
         near = nearest(value, choices, cutoff=0.7)
         hint = Suggestion(near, value) if near is not None else f"; its choices are {listed}"
-        return f"launch argument `{name}` has no choice `{value}`" + hint
+        return f"`{value}` is not a choice of launch argument `{name}`" + hint
     if choices is None and is_passed and name in expected.conditions and value.strip().lower() not in _TRUTHS:
         return f"launch argument `{name}` is a condition, and `{value}` is neither true nor false"
     compared = expected.compared.get(name, set())

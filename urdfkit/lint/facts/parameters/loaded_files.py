@@ -107,9 +107,9 @@ def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
     roots = documents(parameters)
     names = {key.text for root in roots for key, _ in root.entries}
     if not namespace and not names & {*COSTMAPS} and len(names & COSTMAP_ROS1) + len(names & _LAYERS) > 2:
-        return 'has parameters of costmaps, which these read in their namespace only; add `ns="local_costmap"`'
+        return 'has parameters of costmaps, which costmaps read only from their own namespace; add `ns="local_costmap"`'
     if namespace in COSTMAPS and namespace in names:
-        return f"names `{namespace}` too, so its parameters are in `{namespace}/{namespace}`; remove `ns`"
+        return f"also names `{namespace}`, so its parameters are in `{namespace}/{namespace}`; remove `ns`"
     is_elsewhere = namespace != "" and "$" not in namespace and namespace.partition("/")[0] not in COSTMAPS
     if is_elsewhere and not names & {*COSTMAPS} and len(names & COSTMAP_ROS1) + len(names & _LAYERS) > 2:
         message = f"has parameters of costmaps, which move_base does not read from `{namespace}`"

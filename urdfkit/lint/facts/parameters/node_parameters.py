@@ -128,7 +128,7 @@ def _problem(name: str, value: Node, type: str) -> str:
         if lengths and len(value.items) not in lengths:
             return f"`{name}` has {len(value.items)} values; {' or '.join(rest[1:])} are needed"
         if rest[0] == "bool" and any(re.fullmatch(_INTEGER, each.text) for each in value.items if each.is_plain):
-            return f"`{name}` has numbers; write true and false"
+            return f"`{name}` contains numbers; write true and false"
         return ""
     if value.kind == "list":
         return f"`{name}` is a list, but {_KINDS[kind]} is needed"
@@ -197,8 +197,8 @@ def _nested_lists(source: Source) -> Defects:
                 # The parser accepts groups of lists by chance.
                 groups = [item for item in value.items if len(item.entries) > 1 and item.entries[0][1].kind == "text"]
                 if len(lists) > 1:
-                    message = f"`{key.text}` is a list of lists, which ROS 2 rejects; a node that reads points reads a"
-                    yield value, f'{message} text, "[[x, y], ...]"'
+                    message = f"`{key.text}` is a list of lists, which ROS 2 rejects; write points as a"
+                    yield value, f'{message} string, "[[x, y], ...]"'
                 elif groups:
                     message = f"`{key.text}` is a list of groups, which ROS 2 rejects; list names, and write"
                     yield value, f"{message} a group for each name"

@@ -47,7 +47,7 @@ class Place:
 
 
 def misplaced(model: Model) -> Iterator[Place]:
-    """Yield the place that is off the surface of its parent link, if all other joints are on the surface of theirs.
+    """Yield the place that is off the surface of its parent link, if all other joints are on theirs.
 
     Compares joints that turn or slide within limits, and fixed joints with such joints below, but not the joints of
     steered wheels, which are next to the chassis. The joints of one macro count as one.

@@ -72,7 +72,7 @@ def _hidden(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
             for solid in solids
             for point in solid.points((-1, 1))
         ):
-            message = f"link `{joint.child}` of joint `{joint.name}`, with all parts that it carries, is inside of the "
+            message = f"link `{joint.child}` of joint `{joint.name}`, with all parts that it carries, is inside the "
             yield Overlap(joint, _origin(joint), f"{message}shape of `{around[0].link.name}`")
 
 
@@ -92,7 +92,7 @@ def _coincident(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
             continue  # Counterparts on one parent are compared by S909.
         wrong, right = (body, twin) if not _is_misplaced(other, twin.at.translation) else (other, solid)
         joint = next((each for _, each in bodies.above(wrong) if any(each.origin.xyz)), bodies.carriers[wrong][1])
-        message = f"link `{solid.link.name if wrong == body else twin.link.name}` is at the same place as link "
+        message = f"link `{solid.link.name if wrong == body else twin.link.name}` is in the same place as link "
         place = _origin(joint)
         if place.origin.position not in found:
             found.add(place.origin.position)

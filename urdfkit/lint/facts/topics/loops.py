@@ -35,7 +35,7 @@ def self_readers(model: Model) -> Defects:
                 yield (
                     node.source,
                     new,
-                    f"`{node.program}` publishes on `{new.name}` and subscribes to it, and reads its own output",
+                    f"`{node.program}` publishes on `{new.name}` and subscribes to it, so it reads its own output",
                 )
                 break
         yield from _of_parameters(node, topics, files)
@@ -47,7 +47,7 @@ def _of_parameters(node: LaunchedNode, topics: NodeTopics, files: dict[tuple[str
     for source, group in groups_of(node, files) if outputs else ():
         for key, value in group.entries:
             if re.fullmatch(_INPUT, key.text) and value.text.strip("/") in outputs:
-                message = f"`{node.program}` publishes `{value.text}`, so `{key.text}` is its own output"
+                message = f"`{node.program}` publishes `{value.text}`, so `{key.text}` makes it read its own output"
                 yield source, _named(source, value), message
 
 

@@ -78,4 +78,4 @@ def _commanded(model: Model, element: Element, name: str) -> str | None:
     is_mimic = joint is not None and joint.mimic is not None and (element.get("mimic") or "true").lower() != "false"
     if model.release not in WITHOUT_CLASSIC or not is_mimic or element.find("command_interface") is None:
         return None
-    return f"joint `{name}` mimics another joint and has a command interface, which ros2_control refuses"
+    return f"joint `{name}` mimics another joint and has a command interface, which ros2_control rejects"

@@ -99,7 +99,7 @@ def _of_wheel(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | Non
     if not 0.0 < low < (1.0 - _WHEEL) * high:
         return None
     message = f"has a radius of {collision.radius:.3g} m, but the visual shape has {visual.radius:.3g} m"
-    return message, "write the radius of the wheel in both", "geometry"
+    return message, "write the radius of the wheel in both shapes", "geometry"
 
 
 def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
@@ -144,7 +144,7 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     unlike = [factor for factor in factors if not 1.0 / _TIMES < factor < _TIMES]
     if len(factors) == 3 and len(unlike) > 1 and is_one_way and not is_cube:
         message = f"is {times:.3g} times as large as the visual shape"
-        return message, "check whether the size is that of another link", "geometry"
+        return message, "check whether the size was copied from another link", "geometry"
     return None
 
 

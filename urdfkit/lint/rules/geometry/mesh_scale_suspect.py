@@ -88,7 +88,7 @@ class MeshScaleSuspect(RobotRule):
             is_alone = not median and size > MAX_SIZE
             if not (is_alone or _is_other_unit(size, median)):
                 continue
-            comparison = "" if is_alone else f"; parts of the robot have a median size of {median:.2g} m"
+            comparison = "" if is_alone else f"; the median size of the parts of the robot is {median:.2g} m"
             factor, defect = (0.001, "large") if size > median else (1000.0, "small")
             if defect == "large" and set(mesh.scale) == {100.0}:
                 factor = 0.01

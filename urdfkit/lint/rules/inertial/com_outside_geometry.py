@@ -106,7 +106,7 @@ class ComOutsideGeometry(RobotRule):
             if len(opposite) == 1 and sum(abs(a - b) <= same for a, b in pairs) == 2:
                 origin, k = inertial.element.find("origin"), opposite[0]
                 message = f"centre of mass of link `{link.name}` has {'xyz'[k]} = {centre[k]:g} m, "
-                message += f"but the centre of its shape {-centre[k]:g} m"
+                message += f"but the centre of the shape has {'xyz'[k]} = {-centre[k]:g} m"
                 help = "check the sign of the <origin> of <inertial>"
                 yield self.at(model, origin or inertial.element, message, attribute="xyz", link=link.name, help=help)
                 return

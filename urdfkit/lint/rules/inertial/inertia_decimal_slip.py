@@ -106,7 +106,7 @@ class InertiaDecimalSlip(RobotRule):
             return
         place = inertial.element.find("mass") or inertial.element
         message = f"link `{link.name}`: mass {inertial.mass:g} kg or all moments of inertia are off by a factor of 10"
-        help = f"the moments are those of the shape with {(inertial.mass or 0.0) / 10.0**power:g} kg"
+        help = f"the moments match the shape with a mass of {(inertial.mass or 0.0) / 10.0**power:g} kg"
         yield self.at(model, place, message, attribute="value", link=link.name, help=help)
 
 

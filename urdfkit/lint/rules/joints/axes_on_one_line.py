@@ -69,7 +69,7 @@ class AxesOnOneLine(RobotRule):
             joint = upper if counts[upper.name] > counts[lower.name] else lower
             found.add(joint.name)
             names = f"`{upper.name}` and `{lower.name}`"
-            message = f"joints {names} turn about the same line, so one of them has no effect of its own"
+            message = f"joints {names} turn about the same line, so one of them is redundant"
             element = joint.element.find("axis") or joint.element
             help = "check <axis> and the rpy of <origin>"
             yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)

@@ -78,7 +78,7 @@ class JointOffItsParent(RobotRule):
             joint = place.joint
             where = f"{-place.depth:.3g} m outside of" if place.depth < 0.0 else f"{place.depth:.3g} m inside of"
             message = f"joint `{joint.name}` is {where} its parent link `{joint.parent}`; "
-            message += "all other joints are on the surface of theirs"
+            message += "all other joints are on the surface of their parent links"
             help = "check the parent link and the origin"
             names = tuple(name for name in (joint.child, joint.parent) if name)
             yield self.at(model, place.element, message, attribute="xyz", joint=joint.name, help=help, names=names)

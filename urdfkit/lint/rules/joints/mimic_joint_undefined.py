@@ -107,8 +107,10 @@ class MimicJointUndefined(RobotRule):
                 yield from unless_masked(model, element.text, suggestion, self.at(model, element, message))
         led = joints.get(leader.text) if leader is not None else None
         if led is not None and led.mimic is not None and follower is not None and led.mimic.joint == follower.text:
-            message = f"`{led.name}` mimics `{follower.text}`, but the plugin makes `{follower.text}` follow it"
-            help = "exchange the names in <joint> and <mimicJoint>"
+            message = (
+                f"`{led.name}` mimics `{follower.text}`, but the plugin makes `{follower.text}` follow `{led.name}`"
+            )
+            help = "swap the names in <joint> and <mimicJoint>"
             yield self.at(model, leader or plugin, message, joint=led.name, help=help, severity="warning")
 
 

@@ -143,7 +143,8 @@ class OriginTooFar(RobotRule):
             is_far = distance == largest >= _MIN_DISTANCE and distance > _TIMES_OTHERS * typical > 0.0
             is_scenery = joint.parent in roots and not shapes_of(model.robot.link_by_name[joint.parent or ""])
             if is_far and joint.parent and origin is not None and not is_scenery:
-                message = f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; all other joints are within"
+                message = f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; "
+                message += "all other joints are at a distance of at most"
                 help = "write offsets in metres"
                 yield self.at(model, origin, f"{message} {typical:.3g} m", attribute="xyz", joint=joint.name, help=help)
 
@@ -198,7 +199,7 @@ class OriginTooFar(RobotRule):
         joint, gap, part = wrong[0]
         message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`, "
         message += f"but would be at the link with {-part:.3g} m instead of {part:.3g} m"
-        help = "check the sign of the origin, and those of the shapes of the parent link"
+        help = "check the signs of the origin and of the shapes of the parent link"
         origin = joint.element.find("origin") or joint.element
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
 

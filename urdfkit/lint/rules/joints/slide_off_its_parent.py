@@ -77,7 +77,7 @@ class SlideOffItsParent(RobotRule):
             if len(fitting) == 1:
                 right = " ".join(f"{part:g}" for part in fitting[0])
                 element = joint.element.find("axis") or joint.element
-                help = f'along <axis xyz="{right}"/> they stay in contact'
+                help = f'with <axis xyz="{right}"/> the links stay in contact'
                 yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
             elif not fitting and _is_along(joint, axis, parent):
                 help = "the range of motion is longer than the rail; check whether each limit should be half as large"

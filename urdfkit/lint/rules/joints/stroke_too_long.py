@@ -86,7 +86,7 @@ class StrokeTooLong(RobotRule):
                 if size > 0.0 and is_symmetric and upper - lower >= max(_MIN_STROKE, _TIMES * size):
                     message = f"joint `{joint.name}` slides from {lower:g} to {upper:g} m, "
                     message += f"but the whole robot extends {size:.3g} m"
-                    help = "write limits of prismatic joints in metres, or the type of a joint that turns"
+                    help = "write the limits in metres, or use the type of a joint that turns"
                     yield self.at(model, limit.element, message, joint=joint.name, help=help)
 
 

@@ -83,8 +83,8 @@ class ControllerParametersMissing(RobotRule):
             is_manager = node.program == "ros2_control_node" and node.package == "controller_manager"
             is_bare = node.parameters is not None and {*node.parameters} <= {"robot_description", "use_sim_time"}
             if is_manager and is_bare and not node.has_arguments:
-                lacks = "no parameters of controllers" if node.parameters else "no parameters"
-                message = f"`ros2_control_node` has {lacks}, so its controllers have no types"
+                lacks = "no controller parameters" if node.parameters else "no parameters"
+                message = f"`ros2_control_node` has {lacks}, so the types of its controllers are unknown"
                 yield self.at_span(node.source.span(node.start, node.end), message)
 
 

@@ -99,13 +99,13 @@ class LaunchArgumentUndeclared(RobotRule):
         if any(each.is_computed or use.name in {*each.declared, *each.assigned} for each in included):
             return
         span = file.source.span(use.start, use.end)
-        message = f"launch argument `{use.name}` is not declared; the file fails unless an including file has it"
+        message = f"launch argument `{use.name}` is not declared; the file fails unless an including file declares it"
         unused = _unused(file, use.name, model)
         if unused is not None:
             other = file.source.span(unused.start, unused.end)
             message = f"launch argument `{unused.name}` is declared but not used, and `{use.name}` is not declared"
             details = {"other": other, "is_other_wrong": True, "cause": f"argument {use.name}"}
-            help = f"declare `{use.name}` in place of it, or as well"
+            help = f"declare `{use.name}` instead, or in addition"
             yield self.at_span(span, message, severity="warning", help=help, **details)
             return
         yield self.at_span(span, message, severity="warning", help="declare the argument, with a default")

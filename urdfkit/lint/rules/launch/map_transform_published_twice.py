@@ -36,4 +36,4 @@ class MapTransformPublishedTwice(RobotRule):
 
         for source, place, names, message in published_together(model):
             span = source.span(*place)
-            yield self.at_span(span, message, help="check the conditions of both", names=names)
+            yield self.at_span(span, message, help="check the conditions of both nodes", names=names)

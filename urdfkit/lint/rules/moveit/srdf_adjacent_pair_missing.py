@@ -85,7 +85,7 @@ class SrdfAdjacentPairMissing(RobotRule):
                 )
                 if confused is not None:
                     one, other = _links(near)
-                    message += f"; those of `{one}` and `{other}` are, which are not adjacent"
+                    message += f"; the SRDF disables those of `{one}` and `{other}`, which are not adjacent"
                 names = tuple({*pair, *(confused or ())})
                 written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
                 severity = severity_for(root, model)

@@ -120,7 +120,7 @@ class BuildFileInconsistent(RobotRule):
             word, start = project.words[0]
             if word != files.name and word == files.folder.name:
                 tag = files.tags("name")[0][1]
-                message = f"the package is `{files.name}`, but its folder and its project are `{word}`"
+                message = f"the package is named `{files.name}`, but its folder and its project are named `{word}`"
                 names = (files.name, word)
                 yield self._at(files.manifest, tag.start, f"<name>{files.name}", message, kind="name", names=names)
             elif word != files.name:
@@ -162,13 +162,13 @@ class BuildFileInconsistent(RobotRule):
     def _setup(self, files: BuildFiles, source: Source) -> Findings:
         name = re.search(r"(?m)^\s*(?:package_name\s*=|name\s*=)\s*[\"']([^\"']+)[\"']", source.text)
         if name is not None and name[1] != files.name:
-            message = f"the name in setup.py is `{name[1]}`, but that of the package is `{files.name}`"
+            message = f"the name in setup.py is `{name[1]}`, but the package is named `{files.name}`"
             yield self._at(source, name.start(1), name[1], message, kind="setup.py")
         marker = re.search(r"share/ament_index/resource_index/packages", source.text)
         version = re.search(r"(?m)^\s*version\s*=\s*[\"']([\d.]+)[\"']", source.text)
         released = next((text for text, tag in files.tags("version") if tag.parent is files.root), "")
         if version is not None and released and version[1] != released:
-            message = f"the version in setup.py is {version[1]}, but that in package.xml is {released}"
+            message = f"the version in setup.py is {version[1]}, but the version in package.xml is {released}"
             yield self._at(source, version.start(1), version[1], message, "note", kind="version")
         data = re.search(r"data_files\s*=", source.text)
         near = re.search(r"[\"'](share/ament_\w+/resource_\w+/\w+)[\"']\s*,\s*\[\s*f?[\"']resource/", source.text)

@@ -66,7 +66,8 @@ class JointWithoutController(RobotRule):
                 if len(left) != 1 or left[0] not in joints or joints[left[0]].mimic is not None:
                     continue
                 if all(_are_in_line(name, left[0], model) for name in moved):
-                    message = f"`joints` of controller `{controller.name}` lacks joint `{left[0]}`, which has hardware"
+                    message = f"`joints` of controller `{controller.name}` lacks joint `{left[0]}`, "
+                    message += "which has a command interface"
                     span = span_of(source, named)
                     yield self.at_span(span, message, joint=left[0], help="add the joint")
 

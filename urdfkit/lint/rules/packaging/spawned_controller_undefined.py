@@ -65,7 +65,7 @@ class SpawnedControllerUndefined(RobotRule):
             help = "add it to the parameters of `controller_manager`"
             yield self.at_span(span_of(source, key), message, help=help)
         for source, word, name in left_out(model):
-            message = f"no launch file spawns controller `{name}`, unlike the others of its file"
+            message = f"no launch file spawns controller `{name}`, unlike the other controllers of its file"
             yield self.at_span(source.span(word.start, word.end), message, names=(name,))
         for source in launches:
             if source.file.endswith(".launch"):

@@ -125,7 +125,7 @@ def _contradiction(pair: Twins) -> str | None:
     names = f"`{first.name}` and `{second.name}`"
     both = ((first.axis, second.axis), tuple(in_parent))
     if all(max(abs(abs(a) - abs(b)) for a, b in zip(*axes, strict=True)) > _UNLIKE for axes in both):
-        return f"the axes of {names} are along different lines"
+        return f"the axes of {names} are not parallel"
     dot = sum(a * b for a, b in zip(*in_parent, strict=True))
     if first.type == "continuous" and not pair.are_sides and dot < -_MIN_UPRIGHT and "heel" in first.name:
         return f"the axes of {names} point in opposite directions"

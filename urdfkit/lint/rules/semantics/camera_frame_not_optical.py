@@ -64,7 +64,7 @@ class CameraFrameNotOptical(RobotRule):
         for block, carrier in _sideways(model):
             name = block.reference or ""
             message = f"the camera in `{name}` looks along x, which points to the right of `{carrier}`"
-            help = f"write `{carrier}`, and `{name}` as the frame of the images"
+            help = f"put the camera in `{carrier}`, and write `{name}` as the frame of the images"
             yield self.at(model, block.element, message, attribute="reference", link=name, help=help)
 
 

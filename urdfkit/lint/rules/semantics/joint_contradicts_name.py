@@ -85,7 +85,7 @@ class JointContradictsName(RobotRule):
             fault = None if _OTHER.search(joint.name) else _fault(joint, model)
             if stated and fault is None and (words := contradicted_comment(joint, model, stated)):
                 element = joint.element.find("axis") or joint.element
-                message = f"joint `{joint.name}` moves in the opposite direction of its comment, `{words}`"
+                message = f"joint `{joint.name}` moves opposite to the direction in its comment, `{words}`"
                 help = "check the signs of <axis> and of the rpy of <origin>, or correct the comment"
                 yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
             if fault is not None:
@@ -98,7 +98,7 @@ def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:
     """Return the fault of the motion of a joint, the element with it, and its attribute; None if it suits the name."""
     turns = joint.type in ("revolute", "continuous")
     if turns and _SLIDES.search(joint.name):
-        return f"joint `{joint.name}` turns, though its name states that it slides", joint.element, "type"
+        return f"joint `{joint.name}` turns, although its name states that it slides", joint.element, "type"
     about_vertical, about_horizontal = _ABOUT_VERTICAL.search(joint.name), _ABOUT_HORIZONTAL.search(joint.name)
     lifts = _LIFTS.search(joint.name)
     if not (about_vertical or about_horizontal or lifts) or (about_vertical and (about_horizontal or lifts)):

@@ -56,7 +56,8 @@ class JointMovesIntoRobot(RobotRule):
         for joint, link in blocked_joints(model):
             place = joint.element.find("axis") or joint.element
             into = f"link `{link}`" if link else "the ground"
-            message = f"joint `{joint.name}` moves `{joint.child}` into {into}; in the opposite direction it is free"
+            message = f"joint `{joint.name}` moves `{joint.child}` into {into}; "
+            message += "in the opposite direction it would move freely"
             help = "check the signs of <axis> and of the limits"
             if not any(model.is_unresolved(each) for each in joint.element.walk()):
                 yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)

@@ -59,7 +59,7 @@ class ToolFrameInsideBody(RobotRule):
         if model.is_damaged:
             return
         for joint, depth in tools_inside(model):
-            message = f"frame `{joint.child}` is {depth:.3g} m inside of the shape of link `{joint.parent}`"
+            message = f"frame `{joint.child}` is {depth:.3g} m inside the shape of link `{joint.parent}`"
             place = joint.element.find("origin") or joint.element
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
@@ -69,7 +69,7 @@ class ToolFrameInsideBody(RobotRule):
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
         for joint in cameras_looking_back(model):
-            message = f"camera `{joint.child}` looks away from the tool, at the arm"
+            message = f"camera `{joint.child}` faces the arm instead of the tool"
             place = joint.element.find("origin") or joint.element
             help = "check the rpy of the origin"
             yield self.at(model, place, message, attribute="rpy", joint=joint.name, help=help)

@@ -108,7 +108,7 @@ class TwinsMisplaced(RobotRule):
             yield self.at(model, place, message, attribute="xyz", link=unmirrored.name, help=help)
             break
         for overlapping, place, message in overlapping_twins(model) if not found else ():
-            help = "check their sizes, and the distance of the sides"
+            help = "check their sizes, and the distance between the two sides"
             yield self.at(model, place, message, link=overlapping.name, help=help)
             break
 

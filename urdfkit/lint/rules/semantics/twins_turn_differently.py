@@ -67,11 +67,11 @@ class TwinsTurnDifferently(RobotRule):
             if are_equal == are_negated or abs(cosine) < _PARALLEL or (cosine > 0.0) is are_equal:
                 continue
             message = (
-                f"joint `{second.name}` turns from {-high:.4g} to {-low:.4g} rad as seen in a mirror, "
+                f"joint `{second.name}` turns from {-high:.4g} to {-low:.4g} rad when mirrored, "
                 f"but its counterpart `{first.name}` turns from {low:.4g} to {high:.4g} rad"
             )
             element = second.element.find("axis") or second.element
-            help = "reverse the axis of one joint, or negate and exchange its limits"
+            help = "reverse the axis of one joint, or negate and swap its limits"
             names = (first.name, second.name)
             found = self.at(model, element, message, attribute="xyz", joint=second.name, help=help, names=names)
             is_one_tag = first.element.origin.position == second.element.origin.position

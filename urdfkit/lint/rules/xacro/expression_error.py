@@ -40,7 +40,7 @@ class ExpressionError(FaultRule):
         else:
             tag = model.tag(cause[0])
             value = tag.attributes[cause[1]].value if tag is not None else ""
-            help = f"write a number; `{text}` uses it at {model.shown(fault.position)}"
+            help = f"write a number; `{text}` uses the value at {model.shown(fault.position)}"
             yield self.at(
                 model,
                 cause[0],

@@ -47,7 +47,7 @@ class IncludeNotFound(FaultRule):
         help, message = None, fault.message
         if fault.kind == "package-not-found" and is_declared_dependency(model, fault.name or ""):
             severity, message = "warning", f"package `{fault.name}` is not installed on this machine"
-            help = "install it, since package.xml depends on it, or add its folder with --package-path"
+            help = "install it, because package.xml depends on it, or pass its folder with --package-path"
         elif fault.kind == "include-not-found" and (name := argument_in_path(model, fault.details.get("path", ""))):
             severity, help = "note", f"pass {name}:=value: its default selects no file"
         fix = _nearest_file(fault, model)

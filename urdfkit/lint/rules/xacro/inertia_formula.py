@@ -59,7 +59,7 @@ class InertiaFormula(SourceRule):
             yield self.at(
                 model,
                 document.source.position(tag.start),
-                f"wrong formula for {error.component}: the other two moments are those of a {error.shape}",
+                f"wrong formula for {error.component}: the other two moments match a {error.shape}",
                 attribute=error.component,
                 help=f"write {formula}",
                 fix=Fix("unsafe", f"Replace with {formula}", (Edit(span, formula),)),

@@ -54,7 +54,7 @@ def with_least_masses(robot: Robot, *, floating: bool) -> tuple[Robot, list[Repa
     basis = f"it changes the motion of the other links by at most {100.0 * INFLUENCE:g} %"
     if mass is None:
         mass = _mean_mass(robot)
-        basis = "the mean of the other links, too few for the joints that move them"
+        basis = "the mean mass of the other links, because too few of them have a mass for the joints that move them"
     elif not mass:
         mass, radius = ALONE
         basis = "no other link has a mass"

@@ -206,7 +206,7 @@ class ControlLoop:
                 if owner is not controller:
                     raise SimulationError(
                         f"controller `{controller.name}` needs joint `{joint}`, "
-                        f"which `{owner.name}` has; stop one of them"
+                        f"which `{owner.name}` controls; stop one of the two"
                     )
         for controller in stopping:
             controller.stop()

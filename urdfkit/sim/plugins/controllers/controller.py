@@ -71,7 +71,7 @@ class Hardware:
             message, code = f"joint `{joint}` is not controlled: its {self.left_out[joint]} is ignored", LEFT_OUT
         elif joint in joints:
             others = " or ".join(kind for name, kind in self.outputs if name == joint)
-            message = f"joint `{joint}` takes {others}, not {interface}; check its {self.source}"
+            message = f"joint `{joint}` accepts {others}, not {interface}; check its {self.source}"
         elif joint in robot.joint_by_name:
             message = f"joint `{joint}` has no {self.source} with an interface for {interface}"
         else:

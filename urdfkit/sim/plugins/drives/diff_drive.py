@@ -105,11 +105,14 @@ class DiffDrive(VelocityDrive):
         """Report a warning for a model that seems to rely on swapped sides."""
         place, remedy = read.place("legacy_mode"), "--ros-distro kinetic swaps them"
         if read.text("legacy_mode").lower() in ("true", "1"):
-            setup.note(f"{place}: legacyMode (left and right swapped, until Lunar) is off: left is left; {remedy}")
+            setup.note(
+                f"{place}: legacyMode, which swaps left and right up to ROS Lunar, is ignored: the sides are not "
+                f"swapped; {remedy}"
+            )
         elif not read.has("legacy_mode") and turns_right(setup.kinematics, *self._pairs[0]):
             setup.note(
-                f"{place}: joint `{self._pairs[0][0]}` turns the robot as a right wheel does, as models from before "
-                f"Melodic were written (left and right swapped); {remedy}"
+                f"{place}: left joint `{self._pairs[0][0]}` turns the robot like a right wheel, as in models for "
+                f"releases before Melodic, which swap left and right; {remedy}"
             )
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:

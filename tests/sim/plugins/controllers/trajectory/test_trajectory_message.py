@@ -75,12 +75,12 @@ def test_continuous_joints_turn_to_the_nearest_angle() -> None:
     ("sent", "options", "code", "reason"),
     [
         (message(point(1, [0, 0]), names=("a", "c")), {}, -2, "unknown joint `c`"),
-        (message(point(1, [0]), names=("a",)), {}, -2, "it must name each joint once; `b` is not"),
+        (message(point(1, [0]), names=("a",)), {}, -2, "it must name each joint exactly once, unlike `b`"),
         (
             message(point(1, [0, 0]), names=("a", "a")),
             {"partial": True},
             -2,
-            "it must name each joint once; `b` is not",
+            "it must name each joint exactly once, unlike `b`",
         ),
         (message(), {}, -1, "it has no points"),
         (message(point(1, [0, 0]), point(1, [1, 1])), {}, -1, "point 2 must be later than the previous point"),

@@ -47,7 +47,7 @@ class Gripper(RosController):
             gains = read_gains(read, f"gains/{self._name}", self.hardware.setup.note)
             if gains is None:
                 raise DescriptionError(
-                    f"`{self.name}` has no `gains/{self._name}`, which it needs", position=read.place
+                    f"`{self.name}` has no `gains/{self._name}`, which is required", position=read.place
                 )
             self._joint_pid = JointPid(output.handle, gains, output.limits)
             if self._usual == 0.0:

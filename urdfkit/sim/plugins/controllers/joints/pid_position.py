@@ -43,7 +43,7 @@ class PidPosition(RosController):
         self.outputs = (output,)
         gains = read_gains(self.settings, "pid", self.hardware.setup.note)
         if gains is None:
-            raise DescriptionError(f"`{self.name}` has no `pid`, which it needs", position=self.settings.place)
+            raise DescriptionError(f"`{self.name}` has no `pid`, which is required", position=self.settings.place)
         limits = output.limits if output.interface == "effort" else None
         self.joint_pid = JointPid(output.handle, gains, limits)
         self._wanted = 0.0
@@ -144,7 +144,7 @@ class PidGroup(RosController):
             gains: Gains | None = read_gains(self.settings, f"{entry.value}/pid", self.hardware.setup.note)
             if gains is None:
                 raise DescriptionError(
-                    f"`{self.name}` has no `{entry.value}/pid`, which it needs", position=entry.position
+                    f"`{self.name}` has no `{entry.value}/pid`, which is required", position=entry.position
                 )
             joint_pids.append(JointPid(output.handle, gains, output.limits))
         self._joint_pids = tuple(joint_pids)

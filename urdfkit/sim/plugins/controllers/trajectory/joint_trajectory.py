@@ -150,7 +150,7 @@ class TrajectoryFollower(RosController):
                 self.note(f"dropped a trajectory: {error}")
                 return
         self._tolerances, self._watched = self._usual, not self._ros1
-        self._action.give_up("a trajectory came by topic")
+        self._action.give_up("a trajectory was received on the topic")
 
     def _pursue(self, goal: Any) -> None:
         """Accept a goal.

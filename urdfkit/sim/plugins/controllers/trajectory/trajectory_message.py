@@ -58,7 +58,7 @@ class TrajectoryReader:
                 raise refuse(f"unknown joint `{name}`" + did_you_mean(name, self.names), INVALID_JOINTS)
         missing = [name for name in self.names if name not in names]
         if len(set(names)) != len(names) or (missing and not self.partial):
-            raise refuse(f"it must name each joint once; `{(missing or names)[0]}` is not", INVALID_JOINTS)
+            raise refuse(f"it must name each joint exactly once, unlike `{(missing or names)[0]}`", INVALID_JOINTS)
         if not len(message.points):
             raise refuse("it has no points")
         start = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec

@@ -34,7 +34,7 @@ class MultiCamera(Camera):
         if not named:
             element = self.optics.element
             raise SimulationError(
-                "gazebo_ros_multicamera recognizes cameras by `left` and `right` in their names; this one has "
+                "gazebo_ros_multicamera recognizes cameras by `left` and `right` in their names; this sensor has "
                 + ", ".join(f"`{imager.name}`" for imager in self.imagers),
                 position=element.origin.position,
             )

@@ -204,7 +204,7 @@ class GzForceTorque(ForceTorque):
         assert sensor is not None
         place = sensor.element.origin.position
         if setup.link in setup.kinematics.link_names or not setup.link:
-            here = f"`{setup.link}` is a link" if setup.link else "here is no reference"
+            here = f"`{setup.link}` is a link" if setup.link else "this <gazebo> has no reference"
             raise SimulationError(
                 f"a force_torque sensor must be in the <gazebo reference=…> of a joint; {here}", position=place
             )
