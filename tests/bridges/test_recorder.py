@@ -75,7 +75,7 @@ def test_time_goes_on_after_a_reset(tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_recorded_to(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match=r"recordings are MCAP; call it a\.mcap"):
+    with pytest.raises(UsageError, match=r"recordings are MCAP files; name the file a\.mcap"):
         Recorder(Bus(), tmp_path / "a.bag", lambda: 0.0)
     with pytest.raises(ResourceError, match=r"cannot write into .*nowhere"):
         Recorder(Bus(), tmp_path / "nowhere" / "a.mcap", lambda: 0.0)
@@ -146,7 +146,7 @@ def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(
 
 def test_a_recording_is_refused_with_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sim", "run", "simpleton", "--for", "0.1", "--record", str(tmp_path / "a.db3")]) == 2
-    assert capsys.readouterr().err.endswith("recordings are MCAP; call it a.mcap\n")
+    assert capsys.readouterr().err.endswith("recordings are MCAP files; name the file a.mcap\n")
 
 
 def image(encoding: str = "rgb8") -> Any:

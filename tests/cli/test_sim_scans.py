@@ -106,7 +106,7 @@ def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Captu
     assert main(["sim", "run", LASER, "--for", "9", f"--save-scan={tmp_path / 'x.json'}"]) == 2
     assert capsys.readouterr().err.endswith("x.json is a folder\n")
     assert main(["sim", "run", LASER, "--for", "9", "--record", f"{tmp_path}/x.bag"]) == 2
-    assert "recordings are MCAP; call it x.mcap" in capsys.readouterr().err
+    assert "recordings are MCAP files; name the file x.mcap" in capsys.readouterr().err
     assert sorted(each.name for each in tmp_path.iterdir()) == ["seen", "x.json"]
 
 

@@ -295,7 +295,14 @@ BAD = [
         4,
         "unknown parameter `typ` of controller `wheels`; did you mean `type`?",
     ),
-    ("behaviors", '      plugin: "nav2_behaviors::Spin"\n', "      yes: true\n", "K971", 4, "whose section has no `plugin`"),
+    (
+        "behaviors",
+        '      plugin: "nav2_behaviors::Spin"\n',
+        "      yes: true\n",
+        "K971",
+        4,
+        "whose section has no `plugin`",
+    ),
     (
         "behaviors",
         "nav2_amcl::DifferentialMotionModel",

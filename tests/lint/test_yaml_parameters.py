@@ -383,7 +383,11 @@ def test_a_correct_file_of_ros2_is_silent(ros2, file, old, new):
             "    type: effort_controllers/JointPositionController\n    joints: elbow\n",
             "7: `effort_controllers/JointPositionController` reads `joint`, not `joints`",
         ),
-        ("    publish_rate: 50", "  publish_rate: 50", "4: `publish_rate` is at the level of the controllers, not in a controller"),
+        (
+            "    publish_rate: 50",
+            "  publish_rate: 50",
+            "4: `publish_rate` is at the level of the controllers, not in a controller",
+        ),
         ("  elbow: 1.0", '  elbow: "1.0"', '13: `elbow` in `velocity_ff` is "1.0", a quoted string'),
         ("  elbow: 1.0", "  elbwo: 1.0", "13: unknown name `elbwo` in `velocity_ff` of controller `arm_controller`"),
         ("p: 20.0", 'p: "20.0"', '9: gain `p` is "20.0", a quoted string'),
