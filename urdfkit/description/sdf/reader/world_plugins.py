@@ -12,29 +12,17 @@ from urdfkit.description.sdf.world import World
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.source import Position
 
+_OF_GZ = (
+    "physics user-commands scene-broadcaster sensors contact imu navsat altimeter air-pressure magnetometer forcetorque"
+    " label joint-state-publisher"
+)
+_OF_CLASSIC = "api_plugin paths_plugin init factory state force_system properties"
+
 NEEDLESS = frozenset(
     {
-        "gz-sim-physics-system",
-        "gz-sim-user-commands-system",
-        "gz-sim-scene-broadcaster-system",
-        "gz-sim-sensors-system",
-        "gz-sim-contact-system",
-        "gz-sim-imu-system",
-        "gz-sim-navsat-system",
-        "gz-sim-altimeter-system",
-        "gz-sim-air-pressure-system",
-        "gz-sim-magnetometer-system",
-        "gz-sim-forcetorque-system",
-        "gz-sim-label-system",
+        *(f"gz-sim-{name}-system" for name in _OF_GZ.split()),
         "ignition-gazebo-label-system",
-        "gz-sim-joint-state-publisher-system",
-        "gazebo_ros_api_plugin",
-        "gazebo_ros_paths_plugin",
-        "gazebo_ros_init",
-        "gazebo_ros_factory",
-        "gazebo_ros_state",
-        "gazebo_ros_force_system",
-        "gazebo_ros_properties",
+        *(f"gazebo_ros_{name}" for name in _OF_CLASSIC.split()),
     }
 )
 """File stems of plugins whose function is built into the simulator."""
