@@ -7,6 +7,7 @@ from typing import Any
 
 from urdfkit.app.page import Page, note
 from urdfkit.app.simulation.loop import DriveLoop
+from urdfkit.app.simulation.runs.run_options import RunOptions
 from urdfkit.app.simulation.simulation_handle import driving
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.app.viewer.viewing import viewing
@@ -88,7 +89,8 @@ def _simulate(page: Page, model: ModelArgument, world: str, *, strict: bool) -> 
 
     switch = _Switch()
     robot = load_valid(model) if strict else load_repaired(model)
-    simulation: AbstractContextManager[DriveLoop] = driving(page, robot, load_world(world), strict=strict, note=note)
+    options = RunOptions(strict=strict)
+    simulation: AbstractContextManager[DriveLoop] = driving(page, robot, load_world(world), options, note=note)
     with simulation as loop:
         loop.add_request("view", Schema(changes=False), switch.take)
         page.server.publish_latched("modes", other="view", worlds=[], world=world)

@@ -7,6 +7,7 @@ from pathlib import Path
 from urdfkit.app.page import Page, faults_on_page, require_page
 from urdfkit.app.page_handle import PageHandle
 from urdfkit.app.simulation.loop import DriveLoop
+from urdfkit.app.simulation.runs.run_options import RunOptions
 from urdfkit.description import Robot
 from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import World, load_world
@@ -73,18 +74,10 @@ def teleop(
     place = world if isinstance(world, World) else load_world(world, package_path=folders)
     with ExitStack() as stack:
         page = Page("sim", host=host, port=port)
-        loop = stack.enter_context(
-            driving(
-                page,
-                loaded,
-                place,
-                ros_distro=ros_distro,
-                controllers=controllers,
-                renderer=renderer,
-                strict=strict,
-                density=density,
-            )
+        options = RunOptions(
+            ros_distro=ros_distro, controllers=tuple(controllers), renderer=renderer, strict=strict, density=density
         )
+        loop = stack.enter_context(driving(page, loaded, place, options))
         handle = SimulationHandle(page.server, loop.run, stack.pop_all())
     handle.simulator = loop.simulator
     return handle
@@ -95,12 +88,8 @@ def driving(
     page: Page,
     robot: Robot,
     world: World,
+    options: RunOptions,
     *,
-    ros_distro: str | None = None,
-    controllers: Sequence[str | Path] = (),
-    renderer: str = "ray",
-    strict: bool = False,
-    density: float = 1000.0,
     note: Callable[[str], None] | None = None,
 ) -> Iterator[DriveLoop]:
     """Serve the page of a simulation inside the context; yield its loop, ready to run.
@@ -109,11 +98,7 @@ def driving(
         page: the page, not opened yet.
         robot: the robot.
         world: the world.
-        ros_distro: see `teleop`.
-        controllers: see `teleop`.
-        renderer: see `teleop`.
-        strict: see `teleop`.
-        density: see `teleop`.
+        options: options of the simulation; its commands are not used.
         note: receives the warnings of the simulation.
 
     Raises:
@@ -124,34 +109,22 @@ def driving(
     from urdfkit.app.simulation.progress import Compilation, progress
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.scene.rays import cached, warmup
-    from urdfkit.sim import Simulator
     from urdfkit.view.server.running_simulations import registered
 
     server = page.server
     try:
-        initial_scene = InitialScene(robot, world, strict=strict, density=density)
+        initial_scene = InitialScene(robot, world, strict=options.strict, density=options.density)
         page.open()  # the browser starts and shows the robot while the engine is prepared
         # `urdfkit topic` finds the simulation from here on
         with (
             registered(server.port, server.url, robot.name or "robot"),
-            closing(Compilation(server, renderer)) as compilation,
+            closing(Compilation(server, options.renderer)) as compilation,
         ):
             with faults_on_page(server), compilation.kernels.used():
                 initial_scene.show(server)
                 server.publish_latched("progress", label="preparing the engine …")
                 with progress(server, "loading meshes, building the world …"), loading_limit():
-                    simulator = Simulator(
-                        robot,
-                        world=world,
-                        scene=initial_scene.scene,
-                        ros_distro=ros_distro,
-                        controllers=controllers,
-                        renderer=renderer,
-                        strict=strict,
-                        density=density,
-                        note=note,
-                    )
-                    loop = DriveLoop(simulator, server)
+                    loop = DriveLoop(options.build(robot, world, note, scene=initial_scene.scene), server)
                 with progress(server, "drawing …"):
                     loop.show()
                 if loop.sensor_views.find() and cached():

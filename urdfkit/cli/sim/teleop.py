@@ -62,6 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
     require_page("sim teleop", "sim", modules=("numba", "rosbags"))
     from urdfkit.app.simulation.bridging.bridges import bridged
+    from urdfkit.app.simulation.runs.run_options import RunOptions
     from urdfkit.app.simulation.simulation_handle import driving
     from urdfkit.description.sdf import load_world
     from urdfkit.description.xml.cost_limit import loading_limit
@@ -80,21 +81,16 @@ def run(arguments: argparse.Namespace) -> int:
             world = load_world(arguments.world)
         page = page_of("sim", arguments, layout, arguments.watchers_may)
         warnings = GroupedWarnings(quiet=arguments.quiet)
+        options = RunOptions(
+            ros_distro=arguments.ros_distro,
+            controllers=tuple(arguments.controllers),
+            renderer=arguments.renderer,
+            strict=arguments.strict,
+            density=arguments.density,
+        )
         with ExitStack() as stack:
             with warnings:
-                loop = stack.enter_context(
-                    driving(
-                        page,
-                        robot,
-                        world,
-                        ros_distro=arguments.ros_distro,
-                        controllers=arguments.controllers,
-                        renderer=arguments.renderer,
-                        strict=arguments.strict,
-                        density=arguments.density,
-                        note=warnings,
-                    )
-                )
+                loop = stack.enter_context(driving(page, robot, world, options, note=warnings))
             note_lint_target(loop.simulator.repairs, quiet=arguments.quiet)
             loop.bridges = stack.enter_context(
                 bridged(loop.simulator, bridges, loop, warnings, services=loop.services if bridges else {})

@@ -1,4 +1,4 @@
-"""Options of a run without a page: the start, the step, the plugins and the commands."""
+"""Options of a simulation: the start, the step, the plugins, and the commands of a run without a page."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -7,6 +7,7 @@ from pathlib import Path
 from urdfkit.app.simulation.runs.commands import TopicMessage, publish_at, ramp, require_free
 from urdfkit.description import Robot
 from urdfkit.description.sdf import World
+from urdfkit.scene import Scene
 from urdfkit.sim import Simulator, Spawn
 
 
@@ -48,8 +49,10 @@ class RunOptions:
     trajectory: Path | None = None
     messages: tuple[TopicMessage, ...] = ()
 
-    def build(self, robot: Robot, world: World, note: Callable[[str], None]) -> Simulator:
-        """Return a simulator in the initial state.
+    def build(
+        self, robot: Robot, world: World, note: Callable[[str], None] | None, *, scene: Scene | None = None
+    ) -> Simulator:
+        """Return a simulator in the initial state; `scene` has the shapes of the robot if they have been loaded.
 
         Raises:
             UrdfkitError: robot or world cannot be simulated.
@@ -69,6 +72,7 @@ class RunOptions:
             renderer=self.renderer,
             strict=self.strict,
             density=self.density,
+            scene=scene,
             note=note,
         )
 
