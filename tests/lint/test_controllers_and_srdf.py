@@ -107,6 +107,17 @@ SEMANTICS = """<robot name="{robot}">
 SHAPE = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
 
 
+def test_an_srdf_belongs_to_the_robot_that_its_file_is_named_after(tmp_path: Path) -> None:
+    links, joints = '<link name="a"/><link name="b"/>', '<joint name="a_b" type="fixed">{}</joint>'
+    body = links + joints.format('<parent link="a"/><child link="b"/>')
+    (tmp_path / "package.xml").write_text("<package><name>robots</name></package>")
+    for robot in ("bolt", "solo"):
+        (tmp_path / f"{robot}.urdf").write_text(f'<robot name="{robot}">{body}</robot>')
+    (tmp_path / "bolt.srdf").write_text('<robot name="finger"><group name="leg"><joint name="a_b"/></group></robot>')
+    found = [finding.message for finding in lint(tmp_path, select=["M103"])]
+    assert found == ["the SRDF is for robot `finger`, but the URDF is robot `bolt`"]
+
+
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [

@@ -285,24 +285,27 @@ def test_sensors_of_gz_sim_are_none_of_the_classic_one():
     assert found == [("Z827", 5)]
 
 
-@pytest.mark.parametrize(("target", "count"), [("ros1", 1), ("ros2", 2)])
-def test_names_of_plugins_in_different_sensors_are_compared_for_ros_2_only(target, count):
-    bad = HERE / "duplicate-sensor-or-plugin-name" / "bad.plugins.urdf"
-    assert [finding.code for finding in lint(bad, target=target)].count("Z820") == count
-
-
-@pytest.mark.parametrize(("mass", "severity"), [("1e-6", "note"), ("2", "warning")])
-def test_a_small_link_with_a_large_inertia_is_a_note_if_a_heavier_one_is_fixed_to_it(tmp_path, mass, severity):
-    inertia = f"<inertia ixx='{mass}' ixy='0' ixz='0' iyy='{mass}' iyz='0' izz='{mass}'/>"
-    base = f"<inertial><mass value='{mass}'/>{inertia}</inertial>"
+@pytest.mark.parametrize(
+    ("code", "mass", "moment", "severity"),
+    [
+        ("I507", "0.01", "0.01", "note"),
+        ("I507", "2", "2", "warning"),
+        ("I508", "0.01", "1e-9", "note"),
+        ("I508", "2", "2e-8", "warning"),
+    ],
+)
+def test_an_implausible_inertia_of_a_link_fixed_to_a_heavier_one_is_a_note(tmp_path, code, mass, moment, severity):
+    inertia = f"<inertia ixx='{moment}' ixy='0' ixz='0' iyy='{moment}' iyz='0' izz='{moment}'/>"
+    sensor = f"<inertial><mass value='{mass}'/>{inertia}</inertial>"
     trunk = "<inertial><mass value='6'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
     shape = "<visual><geometry><box size='{0} {0} {0}'/></geometry></visual>"
     (tmp_path / "r.urdf").write_text(
-        f"<robot name='r'><link name='base'>{base}{shape.format(0.02)}</link><link name='trunk'>{trunk}"
-        f"{shape.format(1)}</link><joint name='j' type='fixed'><parent link='base'/>"
-        "<child link='trunk'/></joint></robot>"
+        f"<robot name='r'><link name='trunk'>{trunk}{shape.format(1)}</link>"
+        f"<link name='sensor'>{sensor}{shape.format(0.02)}</link>"
+        "<joint name='j' type='fixed'><parent link='trunk'/><child link='sensor'/></joint></robot>"
     )
-    assert [finding.severity for finding in lint(tmp_path, select=["I507"])] == [severity]
+    found = lint(tmp_path, select=["I507", "I508"])
+    assert [(finding.code, finding.severity) for finding in found] == [(code, severity)]
 
 
 DRIVEN = """<robot name="cart">

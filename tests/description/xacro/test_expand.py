@@ -229,7 +229,9 @@ def test_an_error_in_an_included_file_is_placed_there(write: Write) -> None:
     write("inner.xacro", "HEAD\n\n  <link>\n</robot>")
     with pytest.raises(XmlError) as caught:
         expand(write("m.xacro", 'HEAD<xacro:include filename="inner.xacro"/></robot>'))
-    assert str(caught.value).startswith("inner.xacro:4:3: mismatched tag: `<link>` of line 3 is not closed")
+    assert str(caught.value).startswith(
+        "inner.xacro:3:3: mismatched tag: `<link>` is not closed before `</robot>` of line 4"
+    )
 
 
 def test_macros_that_multiply_are_stopped(write: Write) -> None:

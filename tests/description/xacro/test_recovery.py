@@ -202,7 +202,7 @@ def test_an_undeclared_prefix_does_not_hide_the_rest(write: Write) -> None:
 def test_a_broken_entry_file_is_one_fault(write: Write, name: str) -> None:
     expanded = expand_leniently(write(name, "<robot>\n<link></robot>"))
     assert expanded.root is None
-    assert [(f.kind, str(f.position)) for f in expanded.faults] == [("xml", f"{name}:2:9")]
+    assert [(f.kind, str(f.position)) for f in expanded.faults] == [("xml", f"{name}:2:1")]
     assert list(expanded.sources) == [name]
 
 

@@ -106,12 +106,12 @@ def document_of(source: Source) -> Element:
     parser.CharacterDataHandler = lambda data: texts[-1].append(data)
     parser.EntityDeclHandler = lambda name, *_: refuse_entity(source, parser, name)
     parser.StartDoctypeDeclHandler = lambda _, system, public, __: check_doctype(source, parser, system, public)
-    parse_with(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
+    parse_with(parser, source, lambda: [(tag, origin.position) for tag, _, origin in starts])
     return families[0][0]
 
 
-def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:
-    """Parse a text; `open_tags` returns tag and line of the open elements, outermost first.
+def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, Position]]]) -> None:
+    """Parse a text; `open_tags` returns tag and place of the open elements, outermost first.
 
     Raises:
         XmlError: the text is not well-formed, or has too many tags.
@@ -130,18 +130,53 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
     except expat.ExpatError as error:
         position = Position(source.file, error.lineno, error.offset + 1)
         cause = expat.ErrorString(error.code) or "not well-formed"
-        raise XmlError(_explain(cause, source, position, open_tags()), position=position, cause=cause) from None
+        message, place = _explain(cause, source, position, open_tags())
+        raise XmlError(message, position=place, cause=cause) from None
     except UnicodeEncodeError as error:
         raise XmlError("the text contains an unpaired surrogate", position=source.position(error.start)) from None
 
 
-def _explain(text: str, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:
+def _explain(text: str, source: Source, position: Position, opened: list[tuple[str, Position]]) -> tuple[str, Position]:
+    """Return the reason of an error and the place to correct: the tag or quote that is not closed, if there is one."""
+    tag, start = opened[-1] if opened else (None, position)
     offset = source.offset(position.line, position.column)
-    tag = opened[-1] if opened else None
-    unclosed = f"`<{tag[0]}>` of line {tag[1]} is not closed" if tag else ""
     if text == "mismatched tag" and tag:
         found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
-        return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
+        end = found[1] if found else ""
+        if any(outer == end for outer, _ in opened[:-1]) and source.text.startswith(
+            f"<{tag}", source.offset(start.line, start.column)
+        ):
+            return f"mismatched tag: `<{tag}>` is not closed before `</{end}>` of line {position.line}", start
+        return f"mismatched tag: `<{tag}>` of line {start.line} is not closed before `</{end}>`", position
+    if text == "not well-formed (invalid token)" and source.text[offset : offset + 1] == "<":
+        missing = _unclosed(source, offset)
+        if missing is not None:
+            return missing
+        advice = ", or write `&lt;`" if tag else ""
+        return f"unexpected `<`: a quote or `>` is missing before it{advice}", position
+    return _reason(text, source, position, tag, start.line), position
+
+
+def _unclosed(source: Source, offset: int) -> tuple[str, Position] | None:
+    """Return the error of a `<` inside of a tag and the place of the missing character; None on the same line."""
+    text = source.text
+    start, quote, opened = max(text.rfind("<", 0, offset), 0), "", 0
+    for match in re.finditer(r"[\"']", text[start:offset]):
+        if not quote:
+            quote, opened = match[0], start + match.start()
+        elif quote == match[0]:
+            quote = ""
+    at = opened if quote else len(text[:offset].rstrip()) - 1
+    place, line = source.position(max(at, 0)), source.position(offset).line
+    if place.line == line:
+        return None
+    missing = f"the quote {quote} is not closed" if quote else "`>` is missing"
+    return f"{missing} before the `<` of line {line}", place
+
+
+def _reason(text: str, source: Source, position: Position, tag: str | None, line: int) -> str:
+    offset = source.offset(position.line, position.column)
+    unclosed = f"`<{tag}>` of line {line} is not closed" if tag else ""
     if source.text.startswith(LFS.decode()):
         return "this is a Git LFS pointer, not the file itself: run `git lfs pull`"
     if text == "no element found":
@@ -165,8 +200,6 @@ def _explain(text: str, source: Source, position: Position, opened: list[tuple[s
         return "duplicate attribute: the same name twice in one tag"
     if text == "not well-formed (invalid token)":
         near = source.text[offset : offset + 1]
-        if near == "<":
-            return f"unexpected `<`: a quote or `>` is missing before it{', or write `&lt;`' if tag else ''}"
         if near == "&":
             return "unescaped `&`: write `&amp;`"
         return f"not well-formed near {source.text[offset : offset + 12].splitlines()[0]!r}" if near.strip() else text

@@ -142,11 +142,11 @@ class _TreeReader:
     def _end_doctype(self) -> None:
         self._subset = False
 
-    def _open_tags(self) -> list[tuple[str, int]]:
-        found: list[tuple[str, int]] = []
+    def _open_tags(self) -> list[tuple[str, Position]]:
+        found: list[tuple[str, Position]] = []
         at: Tag | None = self._at
         while at is not None and at.parent is not None:
-            found.append((at.tag, at.position.line))
+            found.append((at.tag, at.position))
             at = at.parent
         return found[::-1]
 

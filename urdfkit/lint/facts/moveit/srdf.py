@@ -90,7 +90,11 @@ def is_misnamed(root: Element, model: Model) -> bool:
     robot, name = model.robot, root.get("name")
     if name == robot.name or not robot.name or not fits(root, robot, _SHARE_OF_OWN):
         return False
-    return name is None or not any(re.fullmatch(pattern, name) for pattern in robot_names(model))
+    stem = root.origin.position.file.rpartition("/")[2].partition(".")[0]
+    others = robot_names(model)
+    if stem != robot.name and stem in others:
+        return False  # It belongs to the robot that its file is named after.
+    return name is None or not any(re.fullmatch(pattern, name) for pattern in others)
 
 
 def severity_for(root: Element, model: Model, severity: Severity | None = None) -> Severity | None:

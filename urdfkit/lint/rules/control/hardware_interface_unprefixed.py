@@ -9,7 +9,8 @@ class HardwareInterfaceUnprefixed(RobotRule):
     """A hardware interface has no package prefix.
 
     ## What it does
-    Checks for interfaces such as ``EffortJointInterface`` without the prefix ``hardware_interface/``.
+    Checks for interfaces such as ``EffortJointInterface`` without the prefix ``hardware_interface/``. Those of
+    actuators are checked only if no joint of the transmission has one: gazebo_ros_control does not read them otherwise.
 
     ## Why is this bad?
     gazebo_ros_control logs a deprecation warning at every start.
@@ -43,8 +44,9 @@ class HardwareInterfaceUnprefixed(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each interface without its package prefix."""
-        for text, element, _ in written(model.robot):
-            if text in INTERFACES:
+        for text, element, transmission in written(model.robot):
+            of_joints = [each for part in transmission.joints for each in part.element.find_all("hardwareInterface")]
+            if text in INTERFACES and (element in of_joints or not of_joints):
                 qualified = f"{PACKAGE}/{text}"
                 yield self.at(
                     model,

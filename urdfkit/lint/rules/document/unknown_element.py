@@ -17,6 +17,10 @@ _IN_GAZEBO = frozenset(("sensor", "plugin", "selfCollide", "mu1", "mu2", "kp", "
 """Elements of ``<gazebo reference="…">`` that are written into links and joints by mistake."""
 
 
+_OF_PINOCCHIO = ("link", "collision_checking")
+"""Parent and tag of an element that Pinocchio's reader of URDF reads (capsules and convex hulls)."""
+
+
 _PLACES = ("link", "visual", "collision", "geometry", "inertial", "joint", "material")
 
 
@@ -94,7 +98,7 @@ class UnknownElement(RobotRule):
                 message,
                 link=link,
                 joint=joint,
-                help="readers of URDF ignore it" if is_extension else hint,
+                help="ROS, Gazebo and MuJoCo ignore it" if is_extension else hint,
                 fix=fix,
                 severity="note" if is_extension else None,
             )
@@ -113,7 +117,7 @@ class UnknownElement(RobotRule):
 def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
     allowed = URDF_CHILDREN[element.tag]
     for child in element.children:
-        if child.tag not in allowed:
+        if child.tag not in allowed and (element.tag, child.tag) != _OF_PINOCCHIO:
             if ":" not in child.tag or (element.tag == "geometry" and len(element.children) == 1):
                 yield element, child
         elif child.tag in URDF_CHILDREN and child.tag != "material":

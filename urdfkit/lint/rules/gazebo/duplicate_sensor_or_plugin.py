@@ -12,7 +12,7 @@ class DuplicateSensorOrPlugin(RobotRule):
     ## What it does
     Compares the names of the sensors of each link (an error) and of plugins in the same scope (a warning). Each sensor
     is a separate scope, so plugins in different sensors can share a name. Equal names of gazebo_ros plugins are
-    reported as a note, because in ROS 2 the name of the plugin is the name of its node; in ROS 1 they have no effect.
+    reported as a note, because in ROS 2 the name of the plugin is the name of its node.
 
     ## Why is this bad?
     SDF requires unique names: Gazebo rejects the model, or both sensors or plugins publish on the same topic.
@@ -54,7 +54,7 @@ class DuplicateSensorOrPlugin(RobotRule):
             first, other = by_scope.setdefault(scope, plugin.element), by_name.setdefault(plugin.name, plugin.element)
             if first is not plugin.element:
                 yield self._duplicate(model, plugin.element, f"duplicate plugin name `{plugin.name}`", first, "warning")
-            elif other is not plugin.element and "gazebo_ros" in (plugin.filename or "") and model.target != "ros1":
+            elif other is not plugin.element and "gazebo_ros" in (plugin.filename or ""):
                 message = f"plugin name `{plugin.name}` is also used in another sensor"
                 yield self._duplicate(model, plugin.element, message, other, "note")
 

@@ -1,5 +1,7 @@
 """I502 inertia-not-positive-definite."""
 
+from math import inf
+
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import principal_moments, reordered
 from urdfkit.lint.finding import Severity
@@ -52,6 +54,8 @@ class InertiaNotPositiveDefinite(RobotRule):
                     continue
                 listed = ", ".join(f"{moment:.3g}" for moment in moments)
                 sign = "negative" if moments[0] < -TOLERANCE * largest else "zero"
+                count = sum(moment <= TOLERANCE * largest for moment in moments) if largest < inf else 1
+                which = ("one is", "two are", "all are")[count - 1]
                 is_rod = sign == "zero" and moments[1] > (1.0 - TOLERANCE) * moments[2]
                 severity: Severity | None = (
                     "warning" if is_rod or bodies.is_fixed(link) or bodies.is_small(link) else None
@@ -60,7 +64,7 @@ class InertiaNotPositiveDefinite(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², one is {sign}",
+                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², {which} {sign}",
                     link=link.name,
                     help="compute it from shape and mass; products of inertia are small compared with the diagonal",
                     severity=severity,

@@ -24,7 +24,7 @@ class InertiaTooLarge(RobotRule):
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all visual
     and collision shapes of the link. Collision shapes often cover only a part of the body. Therefore, a link without
     visual shapes is reported only if the radius exceeds three times the distance. Links with an unreadable mesh are not
-    checked. The finding is a note if fixed joints attach the link to a body with more than twenty times its mass and
+    checked. The finding is a note if a fixed joint attaches the link to a body with more than twenty times its mass and
     inertia.
 
     ## Why is this bad?
@@ -88,5 +88,5 @@ class InertiaTooLarge(RobotRule):
         for link, element, message in implausible:
             place, help = place_and_help(element, plausible)
             fix = computed(model, link, element)
-            severity: Severity | None = "note" if bodies.is_small(link) else None
+            severity: Severity | None = "note" if bodies.is_negligible(link) else None
             yield self.at(model, place, message, link=link.name, help=help, fix=fix, severity=severity)

@@ -2,10 +2,12 @@
 
 from math import sqrt
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, place_and_help
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.model.placement import shapes_of, solid
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -25,6 +27,7 @@ class InertiaTooSmall(RobotRule):
     ## What it does
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of the link's
     shapes. Reports a radius below a twentieth of that distance: nearly all the mass would be concentrated in one point.
+    A link that is fixed to a body with more than twenty times its mass and inertia is reported as a note.
 
     ## Why is this bad?
     Light parts on strong joints make simulations jitter, and the integrator needs tiny steps.
@@ -80,10 +83,12 @@ class InertiaTooSmall(RobotRule):
                     implausible.append((link, element, message))
                 else:
                     plausible.append(element)
+        bodies = AttachedBodies(model.robot)
         for link, element, message in implausible:
             place, help = place_and_help(element, plausible)
             fix = computed(model, link, element)
-            yield self.at(model, place, message, link=link.name, help=help, fix=fix)
+            severity: Severity | None = "note" if bodies.is_negligible(link) else None
+            yield self.at(model, place, message, link=link.name, help=help, fix=fix, severity=severity)
 
 
 def _has_detached_shape(model: Model, link: Link) -> bool:

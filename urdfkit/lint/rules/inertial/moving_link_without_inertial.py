@@ -13,7 +13,8 @@ class MovingLinkWithoutInertial(RobotRule):
     Checks for links that can move although neither the link nor any link fixed to it has a mass and a tensor. A link
     can move if a joint moves it, or if the robot has no root link ``world``. The finding is an error for simulators:
     with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For
-    other robots it is a warning.
+    other robots it is a warning. A root link is a note if there is no target and the robot has no ``<gazebo>``,
+    ``<transmission>`` or ``<ros2_control>``: MuJoCo, PyBullet and Newton treat it as fixed.
 
     A robot without any ``<inertial>`` has a single finding. This finding is a note in two cases: if fewer than two of
     the conditions "joints move links", "these links have shapes" and "the target is a simulator" hold, and if the
@@ -62,6 +63,7 @@ class MovingLinkWithoutInertial(RobotRule):
         found = massless(robot, floating=is_free(robot))
         if not found:
             return
+        is_of_control = bool(robot.gazebo or robot.ros2_control or robot.transmissions)
         if all(link.inertial is None for link in robot.links):
             link, joint = first_massless(found)
             if joint is None:  # A joint without a type moves its child if it has an axis.
@@ -76,7 +78,6 @@ class MovingLinkWithoutInertial(RobotRule):
                 if not any(each.collisions for each in robot.links):
                     return  # It describes kinematics only.
                 severity = "note"
-            is_of_control = robot.gazebo or robot.ros2_control or robot.transmissions
             if not is_simulator(model) and not is_of_control:
                 severity = "note"  # It describes kinematics only.
             effect = f"joints move `{link.name}` and other links" if joint is not None else "the robot is free to move"
@@ -93,6 +94,7 @@ class MovingLinkWithoutInertial(RobotRule):
         for link, joint in found:
             if link.inertial is not None:
                 continue  # Reported by E014, I501 or I504.
+            is_static = joint is None and model.target is None and not is_of_control  # in most programs
             effect = f"is moved by joint `{joint.name}`" if joint is not None else "is free to move"
             yield self.at(
                 model,
@@ -102,6 +104,6 @@ class MovingLinkWithoutInertial(RobotRule):
                 link=link.name,
                 joint=None if joint is None else joint.name,
                 help="add <inertial> with <mass> and <inertia>",
-                severity=severity,
+                severity="note" if is_static else severity,
                 kind="free" if joint is None else "moved",
             )

@@ -33,7 +33,8 @@ class LimitsInDegrees(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix converts both limits from degrees, but the joint may actually turn that far.
+    Unsafe: the fix converts both limits from degrees, but the joint may actually turn that far. No fix is offered if
+    the other limit is no multiple of 0.5.
     """
 
     code = "J407"
@@ -51,14 +52,16 @@ class LimitsInDegrees(RobotRule):
             if suspects:
                 side = suspects[-1]
                 value = getattr(limit, side)
+                are_degrees = all((2.0 * (bound or 0.0)).is_integer() for bound in (limit.lower, limit.upper))
+                converted = f": {value:g}° = {radians(value):.6g} rad" if are_degrees else ""
                 yield self.at(
                     model,
                     limit.element,
                     f"{side} limit {value:g} rad of joint `{joint.name}` is {abs(value) / (2 * pi):.1f} turns",
                     attribute=side,
                     joint=joint.name,
-                    help=f"write limits in radians: {value:g}° = {radians(value):.6g} rad",
-                    fix=_in_radians(model, limit),
+                    help="write limits in radians" + converted,
+                    fix=_in_radians(model, limit) if converted else None,
                 )
 
 
