@@ -18,8 +18,8 @@ class TopicUnconnected(RobotRule):
     The rule also follows the includes of launch files. It reports nodes that publish or subscribe to
     ``robot_description`` or ``joint_states`` in a different namespace from the other nodes of the launch.
 
-    Velocity commands of these nodes and of Nav2 are reported if no other file of the packages names their topic
-    although a ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
+    Also reports velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
+    ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
 
     ## Why is this bad?
     The robot does not move, and no node reports an error.

@@ -13,9 +13,9 @@ class UnknownMacro(FaultRule):
     """A macro call names an undefined macro.
 
     ## What it does
-    Checks for calls of macros that no file defines before the call, and for misspelt directives (``<xacro:proprety>``,
-    ``<marco>``), which xacro treats as macro calls or copies. If another file of the package or of a neighbouring
-    package defines the macro, the rule suggests including that file.
+    Checks for calls of macros that no file defines before the call. Also checks for misspelt directives
+    (``<xacro:proprety>``, ``<marco>``), because xacro treats them as macro calls or copies them to the robot. If
+    another file of the package or of a neighbouring package defines the macro, the rule suggests including that file.
 
     ## Why is this bad?
     xacro aborts with an error that contains the name of the macro, but not the line of the call.
