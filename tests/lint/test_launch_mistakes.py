@@ -646,3 +646,102 @@ ROBOT_WITH_ARGUMENT = (
     '<link name="base"/><ros2_control name="c" type="system"><hardware><plugin>a/B</plugin>'
     '<param name="port">$(arg port)</param></hardware></ros2_control>'
 )
+
+
+ARM = """<robot name="cart">
+  <link name="base"/>
+  <link name="hand"/>
+  <joint name="wrist" type="continuous"><parent link="base"/><child link="hand"/><axis xyz="0 0 1"/></joint>
+</robot>
+"""
+SEMANTICS = """<robot name="cart">
+  <group name="arm"><joint name="wrist"/></group>
+  <group_state name="ready" group="arm"><joint name="wrist" value="0"/></group_state>
+</robot>
+"""
+PLANNING = """import moveit_commander
+
+arm = moveit_commander.MoveGroupCommander("{group}")
+arm.set_end_effector_link("{link}")
+arm.remember_joint_values("here")
+arm.set_named_target("here")
+arm.set_named_target("{state}")
+arm.go({{"{joint}": 0.2}}, wait=True)
+"""
+PLANNING_CPP = """#include <moveit/move_group_interface/move_group_interface.h>
+void plan(rclcpp::Node::SharedPtr node) {{
+  moveit::planning_interface::MoveGroupInterface arm(node, "{group}");
+  arm.setNamedTarget("{state}");
+}}
+"""
+NAMES = {"group": "arm", "link": "hand", "state": "ready", "joint": "wrist"}
+
+
+@pytest.mark.parametrize(
+    ("part", "wrong", "line", "message"),
+    [
+        ("group", "manipulator", 3, "group `manipulator` does not exist in the SRDF; it has `arm`"),
+        ("link", "tool0", 4, "link `tool0` does not exist in robot `cart`; it has `base`, `hand`"),
+        ("state", "home", 7, "state of a group `home` does not exist in the SRDF; it has `ready`"),
+        ("joint", "wirst", 8, "joint `wirst` does not exist in robot `cart`; did you mean `wrist`?"),
+    ],
+)
+def test_code_names_parts_of_the_moveit_configuration(tmp_path, part, wrong, line, message):
+    cart = package(tmp_path / "cart", "ament_cmake")
+    write(cart / "cart.urdf", ARM)
+    write(cart / "config/cart.srdf", SEMANTICS)
+    for values, count in (({**NAMES, part: wrong}, 1), (NAMES, 0)):
+        write(cart / "scripts/plan.py", PLANNING.format(**values))
+        assert found(cart, "M108") == [("plan.py", line, message)] * count
+    write(cart / "src/plan.cpp", PLANNING_CPP.format(**{**NAMES, part: wrong}))
+    expected = {"group": [("plan.cpp", 3, message)], "state": [("plan.cpp", 4, message)]}
+    assert found(cart, "M108") == expected.get(part, [])
+
+
+COMPONENT = """from launch import LaunchDescription
+from launch_ros.actions import ComposableNodeContainer
+from launch_ros.descriptions import ComposableNode
+
+
+def generate_launch_description():
+    node = ComposableNode(package="depth_image_proc", plugin="{}")
+    return LaunchDescription([ComposableNodeContainer(
+        name="c", namespace="", package="rclcpp_components", executable="component_container",
+        composable_node_descriptions=[node],
+    )])
+"""
+
+
+@pytest.mark.parametrize(
+    ("plugin", "hint"),
+    [
+        ("depth_image_proc::PointCloudXYZNode", "; did you mean `depth_image_proc::PointCloudXyzNode`?"),
+        ("depth_image_proc/point_cloud_xyzrgb", "; did you mean `depth_image_proc::PointCloudXyzrgbNode`?"),
+        ("depth_image_proc::RegisterNode", None),
+    ],
+)
+def test_a_component_belongs_to_its_package(tmp_path, plugin, hint):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "depth_image_proc", "rclcpp_components")
+    message = f"package `depth_image_proc` has no component `{plugin}`{hint}"
+    write(cart / "launch/c.launch.py", COMPONENT.format(plugin))
+    assert found(cart, "L103") == ([("c.launch.py", 7, message)] if hint else [])
+    node = f'<composable_node pkg="depth_image_proc" plugin="{plugin}" name="p"/>'
+    text = f'<launch><load_composable_node target="c">{node}</load_composable_node></launch>'
+    write(cart / "launch/c.launch.py", "")
+    write(cart / "launch/c.launch.xml", text)
+    assert found(cart, "L103") == ([("c.launch.xml", 1, message)] if hint else [])
+
+
+SECTION = "{}:\n  ros__parameters:\n    {}\n"
+
+
+@pytest.mark.parametrize(("file", "is_reported"), [("mux", False), ("ekf", True), ("all", False)])
+def test_a_node_does_not_load_the_file_of_another_node(tmp_path, file, is_reported):
+    cart = package(tmp_path / "cart", "ament_cmake", "twist_mux", "robot_localization")
+    write(cart / "config/mux.yaml", SECTION.format("twist_mux", "use_stamped: true"))
+    write(cart / "config/ekf.yaml", SECTION.format("ekf_filter_node", "two_d_mode: true"))
+    write(cart / "config/all.yaml", SECTION.format("/**", "use_sim_time: true"))
+    node = f'<param from="$(find-pkg-share cart)/config/{file}.yaml"/>'
+    write(cart / "launch/m.launch.xml", f'<launch>\n<node pkg="twist_mux" exec="twist_mux">\n{node}</node></launch>\n')
+    message = "ekf.yaml has no section `twist_mux`; mux.yaml has it"
+    assert found(cart, "L117") == ([("m.launch.xml", 3, message)] if is_reported else [])

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
+from urdfkit.description.launch.python_constants import launch_reader, parsed
 from urdfkit.description.packages.related_files import manifest
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.record import record
 
 _RELEASED = """
@@ -48,9 +54,32 @@ stereo_view video_recorder extract_images disparity_view; usb_cam: usb_cam_node 
 v4l2_camera_node; depthimage_to_laserscan: depthimage_to_laserscan depthimage_to_laserscan_node;
 pointcloud_to_laserscan: pointcloud_to_laserscan_node laserscan_to_pointcloud_node;
 imu_filter_madgwick: imu_filter_node imu_filter_madgwick_node;
+nmea_navsat_driver: nmea_serial_driver nmea_socket_driver nmea_topic_driver nmea_topic_serial_reader; sllidar_ros2:
+sllidar_node sllidar_client; rplidar_ros: rplidar_node rplidar_composition rplidarNode rplidarNodeClient; urg_node:
+urg_node_driver urg_node getID set_urg_configuration; velodyne_driver: velodyne_driver_node velodyne_node;
+realsense2_camera: realsense2_camera_node; phidgets_spatial: phidgets_spatial_node; rosserial_python: serial_node.py
+message_info_service.py; apriltag_ros: apriltag_node apriltag_ros_continuous_node apriltag_ros_single_image_server_node;
 laser_filters: scan_to_cloud_filter_chain scan_to_scan_filter_chain generic_laser_filter_node;
 """
-"""Package: executables; of Noetic, Humble, Jazzy and Rolling (their CMakeLists.txt and setup.py)."""
+"""Package: executables; of Noetic, Humble, Jazzy and Rolling (their CMakeLists.txt and setup.py).
+
+Those of rplidar_ros, sllidar_ros2, urg_node, velodyne_driver, phidgets_spatial and apriltag_ros are not compared with
+these files; only similar names are reported.
+"""
+
+_COMPONENTS = """
+depth_image_proc: ConvertMetricNode CropForemostNode DisparityNode PointCloudXyzNode PointCloudXyzRadialNode
+PointCloudXyziNode PointCloudXyziRadialNode PointCloudXyzrgbNode PointCloudXyzrgbRadialNode RegisterNode; image_proc:
+CropDecimateNode CropNonZeroNode DebayerNode RectifyNode ResizeNode TrackMarkerNode; stereo_image_proc: DisparityNode
+PointCloudNode; depthimage_to_laserscan: DepthImageToLaserScanROS; pointcloud_to_laserscan: PointCloudToLaserScanNode
+LaserScanToPointCloudNode; realsense2_camera: RealSenseNodeFactory; usb_cam: UsbCamNode; v4l2_camera: V4L2Camera; joy:
+Joy GameController; teleop_twist_joy: TeleopTwistJoy; robot_state_publisher: RobotStatePublisher; nav2_amcl: AmclNode;
+nav2_controller: ControllerServer; nav2_planner: PlannerServer; nav2_smoother: SmootherServer; nav2_bt_navigator:
+BtNavigator; nav2_waypoint_follower: WaypointFollower; nav2_velocity_smoother: VelocitySmoother; nav2_lifecycle_manager:
+LifecycleManager; nav2_map_server: MapServer MapSaver CostmapFilterInfoServer; nav2_collision_monitor: CollisionMonitor
+CollisionDetector
+"""
+"""Package: classes of its components in ROS 2, in the namespace of the package (Humble to Rolling)."""
 
 _ONLY_IN = {
     1: """controller_manager: controller_manager controller_group; xacro:
@@ -146,6 +175,43 @@ def is_of_other_release(package: str, program: str, version: int, texts: Iterabl
     return is_old and any(name in text for text in texts for name in _SINCE_HUMBLE)
 
 
+def wrong_components(source: Source) -> Iterator[tuple[Named, str]]:
+    """Yield the plugins of components that their released packages do not have, with the message."""
+    from urdfkit.lint.fix_builders import nearest
+
+    table = _names(_COMPONENTS) if "plugin" in source.text else {}
+    for package, plugin in (
+        (_in_python(source) if source.file.endswith(".py") else _in_elements(source)) if table else ()
+    ):
+        names = [f"{package}::{name}" for name in table.get(package, ())]
+        if names and plugin.name not in names and re.fullmatch(r"[\w:/]+", plugin.name):
+            lower = {re.sub(r"[\W_]|Node$", "", name).lower(): name for name in names}
+            near = lower.get(re.sub(r"[\W_]", "", plugin.name).lower()) or nearest(plugin.name, names, cutoff=0.6)
+            near = near or (names[0] if len(names) == 1 else None)
+            yield plugin, f"package `{package}` has no component `{plugin.name}`" + Suggestion(near, plugin.name)
+
+
+def _in_elements(source: Source) -> Iterator[tuple[str, Named]]:
+    for element in all_elements(source):
+        at = element.attributes
+        if element.tag == "composable_node" and {"pkg", "plugin"} <= at.keys():
+            yield at["pkg"].name, at["plugin"]
+
+
+def _in_python(source: Source) -> Iterator[tuple[str, Named]]:
+    import ast
+
+    tree = parsed(source)
+    reader = launch_reader(tree) if tree is not None else None
+    for call in ast.walk(tree) if tree is not None else ():
+        words = {word.arg: word.value for word in call.keywords} if isinstance(call, ast.Call) else {}
+        if reader is None or not {"package", "plugin"} <= words.keys():
+            continue
+        package, plugin = (reader.text(words[key]) for key in ("package", "plugin"))
+        if package is not None and plugin is not None and isinstance(words["plugin"], ast.Constant):
+            yield package, Named(plugin, place(source, words["plugin"])[0] + 1)
+
+
 @cache
 def _names(table: str) -> dict[str, list[str]]:
     pairs = (entry.partition(":") for entry in table.strip(";\n").split(";"))
@@ -182,8 +248,8 @@ def _files(package: Path, text: str) -> list[str]:
     folders = re.findall(r"install\s*\(\s*DIRECTORY\s+([^()]*?)\s+DESTINATION\s+[^()]*(?:lib|BIN)", text)
     places = [package] if is_catkin else [package / word for found in folders for word in found.split()]
     found: list[str] = []
-    for place in places:
-        for path in place.rglob("*") if place.is_dir() else ():
+    for inner in places:
+        for path in inner.rglob("*") if inner.is_dir() else ():
             if len(found) > _MAX_FILES:
                 break
             found.append(path.name)

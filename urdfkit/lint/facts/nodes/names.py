@@ -68,6 +68,7 @@ def misnamed(model: Model) -> Defects:
                 users.setdefault(files[path].file, []).append(node)
     started = {name_of_node(node) for node in nodes}
     by_file = {source.file: source for source in files.values()}
+    reported = set[str]()
     for file, readers in users.items():
         keys = [(key, key.last_name) for key, _ in sections(by_file[file])]
         if not keys or any("*" in key.text for key, _ in keys):
@@ -97,6 +98,7 @@ def misnamed(model: Model) -> Defects:
                     message = f"node `{name}` has no section in {_short(file)}, whose only section is `{keys[0][1]}`"
                     yield node.source, _span(node), message
             elif node.name is not None and _default(node) in {other for _, other in keys} - started:
+                reported.add(name)
                 message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
                 yield node.source, _span(node), message
             elif node.name is not None and (unused := _unused(node, by_file[file], readers, started)):
@@ -108,7 +110,7 @@ def misnamed(model: Model) -> Defects:
                     yield by_file[file], span_of(by_file[file], key), message
                 else:
                     yield node.source, _span(node), message
-    yield from _unmanaged(model, nodes, {each for each in started if each})
+    yield from _unmanaged(model, nodes, {each for each in started if each}, reported)
 
 
 def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], started: set[str]) -> str:
@@ -190,8 +192,11 @@ def _listed(source: Source) -> Iterator[tuple[str, Span]]:
                     yield item.value, source.span(*place(source, item))
 
 
-def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> Defects:
-    """Yield the misspelt names in ``node_names`` of a lifecycle manager, in launch files and YAML."""
+def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str], reported: set[str]) -> Defects:
+    """Yield the misspelt names in ``node_names`` of a lifecycle manager, in launch files and YAML.
+
+    The nodes in `reported` have a wrong name, which is reported already.
+    """
     managers = [source for source in model.related_files.values() if "node_names" in source.text]
     lists = {source.file: list(_listed(source)) for source in managers}
     for source in managers:
@@ -225,7 +230,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
             hint = Suggestion(_RENAMED.get(name), name)
             yield source, span, f"no launch file of these packages starts the node `{name}`" + hint
         for name, span in unlisted:
-            if name in meant:
+            if name in meant | reported:
                 continue
             message = f"no lifecycle manager of this file lists the node `{name}`, so it is never activated"
             first = next((at for each, at in listed if each in own), None)

@@ -44,6 +44,7 @@ class LaunchedNode:
         namespace: its namespace in the launch file without slashes at its ends; None if it is computed.
         spaced_by: the innermost attribute that sets the namespace.
         is_conditional: whether the launch file starts it under a condition only.
+        file_places: first and last offset of the path of each of its parameter files.
     """
 
     source: Source
@@ -59,6 +60,7 @@ class LaunchedNode:
     namespace: str | None = ""
     spaced_by: Named | None = None
     is_conditional: bool = False
+    file_places: tuple[tuple[int, int], ...] = ()
 
 
 def launched_nodes(model: Model) -> list[LaunchedNode]:
@@ -113,7 +115,7 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str], place
         if file is not None and (child.tag == "param" or (child.tag == "rosparam" and is_loaded)):
             text = re.sub(rf"^\s*{_ARGUMENT}\s*$", lambda use: defaults.get(use[1], use[0]), file.name)
             text = resolved_text(source, text)
-            files.append(share_of(text))
+            files.append((share_of(text), (file.start, file.end)))
         elif child.tag == "remap" and "from" in parts and "to" in parts:
             remappings.append((parts["from"], parts["to"]))
     return LaunchedNode(
@@ -122,14 +124,15 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str], place
         program.name if program is not None and "$" not in program.name else "",
         name if name is not None and name.name and "$" not in name.name else None,
         name is not None,
-        tuple(file for file in files if file[0]),
+        tuple(file for file, _ in files if file[0]),
         tuple(remappings),
         (program.start, program.end) if program is not None else None,
-        frozenset(inner) if all(file[0] for file in files) else None,
+        frozenset(inner) if all(file[0] for file, _ in files) else None,
         False,
         place.namespace,
         place.spaced_by,
         place.is_conditional,
+        tuple(at for file, at in files if file[0]),
     )
 
 
@@ -169,6 +172,7 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 space.strip("/") if space is not None else None,
                 None,
                 "condition" in words or call in branches,
+                tuple(place(source, item) for item, file in zip(items, files, strict=True) if file is not None),
             )
 
 

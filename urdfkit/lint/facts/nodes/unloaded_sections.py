@@ -24,6 +24,8 @@ _FOR_ALL = ("SetParametersFromFile", "set_parameters_from_file")
 def nodes_without_section(model: Model) -> Defects:
     """Yield the nodes that load no file with a section of their name, although other nodes load such a file.
 
+    Also yields the parameter file of a node that is that of other nodes.
+
     Nodes that also start with this section, and sections in several files, have a reason to differ. Nodes without the
     clock of the others are reported by simulation-time-inconsistent.
     """
@@ -34,8 +36,10 @@ def nodes_without_section(model: Model) -> Defects:
     for source in files.values():
         for key, _ in sections(source) if PARAMETERS in source.text else ():
             own.setdefault(key.last_name, []).append(source)
+    found = list(_files_of_other_nodes(nodes, files, own))
+    yield from ((node.source, node.file_places[0], message) for node, message in found)
     by_name: dict[str, list[LaunchedNode]] = {}
-    for node in nodes:
+    for node in (each for each in nodes if not any(each is other for other, _ in found)):
         by_name.setdefault(name_of_node(node) or node.program, []).append(node)
     for name, named in by_name.items():
         sources = own.get(name, [])
@@ -53,6 +57,29 @@ def nodes_without_section(model: Model) -> Defects:
             if node.package not in _SEVERAL and node.place is not None and not node.namespace:
                 short = sources[0].file.rpartition("/")[2]
                 yield node.source, node.place, f"node `{name}` does not load {short}, which has its parameters"
+
+
+def _files_of_other_nodes(
+    nodes: list[LaunchedNode], files: dict[tuple[str, str], Source], own: dict[str, list[Source]]
+) -> Iterator[tuple[LaunchedNode, str]]:
+    """Yield the nodes whose only parameter file has sections of other nodes and not theirs, with the message.
+
+    Another file of the same package then has the only section for the node, and no launch file loads it for the node.
+    """
+    paths = {source.file: file for file, source in files.items()}
+    loaded: dict[str, set[str]] = {}
+    for node in nodes:
+        loaded.setdefault(name_of_node(node), set()).update(files[file].file for file in node.files if file in files)
+    for node in nodes:
+        name, sources = name_of_node(node), own.get(name_of_node(node), [])
+        if len(node.files) != 1 or node.files[0] not in files or len(sources) != 1 or node.package in _SEVERAL:
+            continue
+        file, right = files[node.files[0]], sources[0]
+        names = [key.last_name for key, _ in sections(file)]
+        is_other = bool(names) and not any(each == name or "*" in each for each in names)
+        if is_other and paths[right.file][0] == node.files[0][0] and right.file not in loaded[name]:
+            short, meant = (each.file.rpartition("/")[2] for each in (file, right))
+            yield node, f"{short} has no section `{name}`; {meant} has it"
 
 
 def maps_without_file(model: Model) -> Defects:

@@ -53,6 +53,7 @@ class ExecutableUnknown(RobotRule):
             is_of_other_release,
             released,
             replacement_of,
+            wrong_components,
         )
         from urdfkit.lint.facts.launch.ros_version import reads_version
         from urdfkit.lint.facts.ros_packages import misspelling_of
@@ -67,6 +68,8 @@ class ExecutableUnknown(RobotRule):
             by_package.pop(package, None)
         for file in launch_files(model):
             version = reads_version(file.source)
+            for plugin, message in wrong_components(file.source) if version == 2 else ():
+                yield self.at_span(file.source.span(plugin.start, plugin.end), message, names=(plugin.name,))
             for node in file.nodes:
                 if node.package is None or node.program is None:
                     continue

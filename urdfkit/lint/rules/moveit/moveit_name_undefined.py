@@ -10,7 +10,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MoveitNameUndefined(RobotRule):
-    """MoveIt's settings in YAML name a group, joint or controller that does not exist.
+    """MoveIt's settings in YAML, or code that plans, name a group, state, joint or controller that does not exist.
 
     ## What it does
     Checks YAML files in packages with an SRDF of the robot for:
@@ -21,6 +21,9 @@ class MoveitNameUndefined(RobotRule):
     - names in ``controller_names`` without a section
     - controllers that no YAML file of these packages defines: misspelt names, and in ROS 1 names without their
       namespace
+
+    Also checks the groups, named states, joints and end effectors that Python and C++ code passes to MoveIt, if the
+    packages have one SRDF.
 
     ## Why is this bad?
     MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It refuses to execute a
@@ -46,10 +49,13 @@ class MoveitNameUndefined(RobotRule):
         """Yield a finding for each undefined name."""
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.yaml_tree import yamls
+        from urdfkit.lint.facts.moveit.code_names import undefined_in_code
         from urdfkit.lint.facts.moveit.initial_poses import undefined_poses
         from urdfkit.lint.facts.moveit.settings import controller_names, entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups, virtual_joints
 
+        for code, named, message in undefined_in_code(model):
+            yield self.at_span(code.span(named.start, named.end), message)
         started: list[str] | None = None
         for source, root in moveit_yamls(model):
             for pose, message, states in undefined_poses(source, root):
