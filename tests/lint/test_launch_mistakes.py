@@ -745,3 +745,70 @@ def test_a_node_does_not_load_the_file_of_another_node(tmp_path, file, is_report
     write(cart / "launch/m.launch.xml", f'<launch>\n<node pkg="twist_mux" exec="twist_mux">\n{node}</node></launch>\n')
     message = "ekf.yaml has no section `twist_mux`; mux.yaml has it"
     assert found(cart, "L117") == ([("m.launch.xml", 3, message)] if is_reported else [])
+
+
+STOP = """#!/usr/bin/env python3
+import rospy
+from geometry_msgs.msg import Twist
+
+rospy.init_node("stop")
+speed = rospy.get_param("~speed", 0.4)
+rospy.Subscriber("command", Twist, print)
+publisher = rospy.Publisher("safe", Twist, queue_size=1)
+"""
+STOPPED = """<launch>
+  <arg name="mapping" default="false"/>
+  <include file="$(find cart)/launch/map.launch"><arg name="{argument}" value="$(arg mapping)"/></include>
+  <node pkg="cart" type="stop.py" name="stop"><param name="speed" value="{speed}"/>
+    <remap from="safe" to="{safe}"/></node>
+  <node pkg="cart" type="stop.py" name="second"><remap from="command" to="drive_safe"/></node>
+  <node pkg="cart" type="stop.py" name="third"><remap from="safe" to="{drive}/cmd_vel"/></node>
+  <node pkg="joint_state_publisher" type="joint_state_publisher" name="j">
+    <remap from="robot_description" to="{d}"/></node>
+</launch>
+"""
+MAP = """<launch>
+  <arg name="map" default="$(find cart)/map.yaml"/>
+  <arg name="mapping" default="false"/>
+</launch>
+"""
+WHEELS = (
+    "wheels_controller:\n  type: diff_drive_controller/DiffDriveController\n  left_wheel: [a]\n  right_wheel: [b]\n"
+)
+VALUES = {
+    "argument": "mapping",
+    "speed": "0.3",
+    "safe": "drive_safe",
+    "drive": "wheels_controller",
+    "d": "robot_description",
+}
+
+
+@pytest.mark.parametrize(
+    ("part", "wrong", "line", "words"),
+    [
+        ("argument", "map", 3, "launch argument `map` is the path of a file, but this include passes `mapping`"),
+        ("speed", "0,3", 4, "`speed` is `0,3`, which is not a number"),
+        ("safe", "drive_save", 5, "no other file names the topic `drive_save`; did you mean `drive_safe`?"),
+        ("drive", "wheel_controller", 7, "`wheel_controller/cmd_vel`; did you mean `wheels_controller/cmd_vel`?"),
+        ("d", "cart_model", 9, "no other file names `cart_model`, so `joint_state_publisher` is without a description"),
+    ],
+)
+def test_a_mistake_in_a_ros_1_launch_file_is_reported_at_its_line(tmp_path, part, wrong, line, words):
+    cart = package(tmp_path / "cart", "catkin", "joint_state_publisher", "rospy", "geometry_msgs")
+    write(cart / "scripts/stop.py", STOP)
+    write(cart / "launch/map.launch", MAP)
+    write(cart / "config/wheels.yaml", WHEELS)
+    for values, count in (({**VALUES, part: wrong}, 1), (VALUES, 0)):
+        write(cart / "launch/cart.launch", STOPPED.format(**values))
+        assert [each.line for each in lint(cart) if words in each.text] == [line] * count
+
+
+@pytest.mark.parametrize(("world", "count"), [("hospital", 1), ("ward", 0)])
+def test_the_world_of_a_spawner_exists(tmp_path, world, count):
+    cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim")
+    write(cart / "worlds/ward.sdf", '<sdf version="1.9"><world name="ward"/></sdf>\n')
+    arguments = f"-world {world} -topic robot_description"
+    node = f'<node pkg="ros_gz_sim" exec="create" args="{arguments}"/>'
+    write(cart / "launch/cart.launch.xml", f"<launch>\n{node}\n</launch>\n")
+    assert len(found(cart, "K969")) == count

@@ -376,7 +376,7 @@ MISTAKES = [
         '"frame_id": "lidar_link"',
         "K961",
         14,
-        "robot `cart` has no link `lidar_link`, the frame of this driver",
+        "robot `cart` has no link `lidar_link`, the frame of this node",
     ),
     (ROS2, START, '.lower() == "true"', ".lower() == 'True'", "L106", 20, "a lower-case string is never `True`"),
     (

@@ -28,7 +28,28 @@ PLANNER = PLUGIN.format("planning_plugin", "{}")
 ADAPTERS = PLUGIN.format("request_adapters", "default_planner_request_adapters/FixStartStateBounds {}")
 MANAGER2 = PLUGIN.format("moveit_controller_manager", "{}/MoveItFakeControllerManager").replace("type", "exec")
 BASE = '<node pkg="move_base" type="move_base" name="m"><param name="base_global_planner" value="{}"/></node>'
+STICK = (
+    '<node pkg="joy" type="joy_node" name="j"><param name="dev" value="/d"/><param name="deadzone" value="{}"/></node>'
+)
+CAMERA = '<node pkg="usb_cam" type="usb_cam_node" name="c"><remap from="{}/></node>'
+SPAWN = (
+    '<param name="robot_description" textfile="$(find arm)/arm.urdf"/>'
+    '<node pkg="gazebo_ros" type="spawn_model" name="s" args="-{} -param robot_description -model arm"/>'
+)
+SIMULATED = (
+    '<include file="$(find gazebo_ros)/launch/empty_world.launch"/><group if="$(arg rviz)">'
+    '<include file="$(find a)/b"/></group><param name="use_sim_time" value="{}"/>'
+)
+MAPPING = '<node pkg="gmapping" type="slam_gmapping" name="m"><param name="base_frame" value="{}"/></node>'
+FILTER = '<node pkg="robot_localization" exec="ekf_node" name="ekf"><remap from="{}/></node>'
 CASES = [
+    (1, STICK, "10", "0.1", "`deadzone` is 10, more than 1"),
+    (1, '<node pkg="d" type="d" name="d" required="{}" respawn="true"/>', "true", "false", "which roslaunch refuses"),
+    (1, CAMERA, 'image_raw" to="~image_raw"', '~image_raw" to="image_raw"', "write `~image_raw` first"),
+    (1, SPAWN, "sdf", "urdf", "`robot_description` is a URDF; did you mean `-urdf`?"),
+    (1, SIMULATED, "false", "true", "`use_sim_time` is false, but this file starts Gazebo"),
+    (1, MAPPING, "footprint", "base_link", "has no link `footprint`, the frame of this node"),
+    (2, FILTER, 'odom" to="odometry/filtered"', 'odometry/filtered" to="odom"', "`ekf_node` has no topic `odom`"),
     (1, PLANNER, "ompl_interface/OMPLPlannerPlugin", "ompl_interface/OMPLPlanner", "has no plugin `OMPLPlannerPlugin`"),
     (1, BASE, "nav2_navfn_planner/NavfnPlanner", "navfn/NavfnROS", "ROS 1; did you mean `navfn/NavfnROS`?"),
     (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
@@ -53,6 +54,24 @@ def undefined_parameters(node: Started, model: Model) -> Iterator[tuple[int, str
                 near = next(iter(own)) if len(own) == 1 else None
                 message = f"no launch file of these packages sets the parameter `{word.name}`"
                 yield word.start, word.name, message + Suggestion(near, word.name)
+
+
+def wrong_formats(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
+    """Yield offset, text and message of ``-sdf`` for a parameter of ROS 1 that has the text of a URDF."""
+    words = {word.name: word for word in node.arguments if word is not None}
+    values = dict(zip(node.arguments, node.arguments[1:], strict=False))
+    named = values.get(words.get("-param"))
+    if node.program != "spawn_model" or "-sdf" not in words or named is None or "$" in named.name:
+        return
+    texts = [
+        tag.attributes[key].value
+        for _, tag in tags(ros1_files(model), "param")
+        for key in ("command", "textfile")
+        if key in tag.attributes and "name" in tag.attributes and tag.attributes["name"].value == named.name
+    ]
+    if texts and all(re.search(r"\.urdf(?:\.xacro)?\b|\bxacro\b", text) for text in texts):
+        word = words["-sdf"]
+        yield word.start, word.name, f"`{named.name}` is a URDF" + Suggestion("-urdf", word.name)
 
 
 def _own_parameters(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:

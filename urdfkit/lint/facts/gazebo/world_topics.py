@@ -1,4 +1,4 @@
-"""Topics of Gazebo with the name of a world that the packages do not have."""
+"""Topics of Gazebo and arguments of spawners with the name of a world that the packages do not have."""
 
 import re
 from collections.abc import Iterator
@@ -11,6 +11,9 @@ from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import code_texts
 
 _TOPIC = r"(?<![\w/])/world/(\w+)/(?=\w)"
+_SPAWNED = r"(?<![\w-])--?world[\"']?(?:\s*,)?\s+[\"']?(\w+)(?=[\s\"'])"
+"""Matches the name of the world among the arguments of ``create`` (ros_gz_sim)."""
+
 _NAMED = r"<world\s[^<>]*?\bname\s*=\s*[\"']([^\"'<>]+)[\"']"
 _ENDINGS = (".sdf", ".world", ".xacro")
 _WORLD_FILE = r"([\w.-]+\.(?:sdf|world))\b"
@@ -20,6 +23,8 @@ def topics_of_other_worlds(model: Model) -> Iterator[tuple[Source, int, str, lis
     """Yield file, offset and name of each world in a topic that no world file of the packages defines, with theirs."""
     files = [source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml", *LAUNCH))]
     used = [(source, at) for source in files for at in re.finditer(_TOPIC, uncommented(source))]
+    spawning = [source for source in files if "ros_gz_sim" in source.text and "create" in source.text]
+    used += [(source, at) for source in spawning for at in re.finditer(_SPAWNED, uncommented(source))]
     if not used:
         return
     worlds, names = set[str](), set[str]()

@@ -1,4 +1,4 @@
-"""Frames that launch files give to drivers of sensors, and that the robot does not have."""
+"""Frames that launch files give to drivers of sensors and to localization, and that the robot does not have."""
 
 import ast
 import re
@@ -15,6 +15,10 @@ from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
 
 _FRAME = r"(?:laser_|lidar_|imu_|scan_|sensor_|gps_)?frame(?:_id)?"
+_BASE = r"(?:robot_)?base_(?:link_)?frame(?:_id)?"
+_OF_BASE = ("amcl", "gmapping", "hector_mapping", "nav2_amcl", "robot_localization", "slam_toolbox")
+"""Packages whose nodes need the frame of the base in a parameter that `_BASE` matches."""
+
 _TRANSFORMS = r"static_transform_publisher|TransformBroadcaster"
 _FIXED = ("map", "odom", "world", "earth", "utm")
 _SENSORS = ("LaserScan", "Imu", "NavSatFix", "PointCloud2", "Image")
@@ -47,6 +51,13 @@ def unknown_frames(model: Model) -> Iterator[tuple[Source, Named]]:
                 yield source, frame
 
 
+def _is_frame(package: str, program: str, name: str) -> bool:
+    """Return whether a parameter of a node is the frame of a sensor or of the base."""
+    if package in _OF_BASE:
+        return re.fullmatch(_BASE, name) is not None
+    return _is_driver(package, program) and re.fullmatch(_FRAME, name) is not None
+
+
 def _is_driver(package: str, program: str) -> bool:
     topics = topics_of(package, program)
     return topics is not None and not topics.read and not {*topics.published.values()}.isdisjoint(_SENSORS)
@@ -61,9 +72,9 @@ def _in_python(source: Source) -> Iterator[Named]:
             continue
         package, program = (reader.text(words[key]) or "" if key in words else "" for key in ("package", "executable"))
         for group in (each for each in ast.walk(words["parameters"]) if isinstance(each, ast.Dict)):
-            for key, value in zip(group.keys, group.values, strict=True) if _is_driver(package, program) else ():
+            for key, value in zip(group.keys, group.values, strict=True):
                 name, text = reader.text(key) if key is not None else None, reader.text(value)
-                if name is not None and text and re.fullmatch(_FRAME, name):
+                if name is not None and text and _is_frame(package, program, name):
                     yield Named(text, place(source, value)[0] + isinstance(value, ast.Constant))
 
 
@@ -71,9 +82,10 @@ def _in_elements(source: Source) -> Iterator[Named]:
     for element in all_elements(source):
         at = element.attributes
         program = at.get("exec") or at.get("type")
-        if element.tag != "node" or "pkg" not in at or program is None or not _is_driver(at["pkg"].name, program.name):
+        if element.tag != "node" or "pkg" not in at or program is None:
             continue
         for child in element.children:
             parts = child.attributes
-            if child.tag == "param" and {"name", "value"} <= parts.keys() and re.fullmatch(_FRAME, parts["name"].name):
+            is_value = child.tag == "param" and {"name", "value"} <= parts.keys()
+            if is_value and _is_frame(at["pkg"].name, program.name, parts["name"].name):
                 yield parts["value"]

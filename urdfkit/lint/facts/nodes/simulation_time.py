@@ -42,7 +42,7 @@ _IDLE = ("lifecycle_manager", "map_server", "map_saver_server")
 _OF_CLOCK = r"sim|gazebo|gz|real|hard|robot|fake|mock|\$\(eval|\bfalse\b"
 """Matches a condition that may hold without a simulation only."""
 
-_SCOPES = r"\b(?:GroupAction|OpaqueFunction)\(|<group\b(?:(?!</group>).)*<include"
+_SCOPES = r"\b(?:GroupAction|OpaqueFunction)\("
 """Matches launch files whose includes can be conditional without a condition of their own."""
 
 Defects = Iterator[tuple[Source, tuple[int, int], str]]
@@ -88,6 +88,10 @@ def computer_time(model: Model) -> Defects:
                 is_key = element.tag == "arg" and key is not None and key.name == _KEY
                 if is_key and default is not None and default.name.lower() == "false" and not reads_ros1(source):
                     yield source, (default.start, default.end), _message()
+                value = element.attributes.get("value")
+                is_global = element.tag == "param" and key is not None and key.name.strip("/") == _KEY
+                if is_global and value is not None and value.name.lower() == "false":
+                    yield source, (value.start, value.end), _message()
                 conditions = [element.attributes[key].name for key in ("if", "unless") if key in element.attributes]
                 if element.tag == "include" and not any(re.search(_OF_CLOCK, each) for each in conditions):
                     for child in element.children:
@@ -197,7 +201,7 @@ def _message() -> str:
 
 def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:
     """Return whether a launch file always starts Gazebo, itself or by its includes."""
-    if re.search(_SCOPES, source.text, re.DOTALL):
+    if re.search(_SCOPES, source.text):
         return False
     for call in actions_of(source).includes:
         if call.is_conditional:

@@ -15,7 +15,7 @@ from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.actions import all_elements, launch_files
 from urdfkit.lint.facts.launch.receivers import actions_at, receiver
-from urdfkit.lint.facts.launch.records import Call
+from urdfkit.lint.facts.launch.records import Call, LaunchActions
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
 from urdfkit.record import field, record
@@ -64,6 +64,21 @@ def refused_values(model: Model) -> Iterator[tuple[Span, str]]:
                 message = _refused(name, value.name, expected, True) if expected is not None else None
                 if message is not None:
                     yield _span(file.source, value), message
+            for name, value in passed_values(file.source, call, True) if expected is not None else ():
+                message = _truth_for_a_path(name, value.name, file, actions) if actions is not None else None
+                if message is not None and (expected is None or name not in expected.conditions):
+                    yield _span(file.source, value), message
+
+
+def _truth_for_a_path(name: str, value: str, file: LaunchActions, actions: LaunchActions) -> str | None:
+    """Return the message for a truth value that an include passes to an argument whose default is a path."""
+    use = re.fullmatch(ARGUMENT_USE, value.strip())
+    given = file.defaults.get(use[1], "") if use is not None else value
+    default = actions.defaults.get(name, "")
+    if given.strip().lower() not in ("true", "false") or not re.search(r"/[\w.-]+\.\w+\s*$", default):
+        return None
+    passed = f"`{use[1]}`, which is `{given}`" if use is not None else f"`{given}`"
+    return f"launch argument `{name}` is the path of a file, but this include passes {passed}"
 
 
 def _refused(name: str, value: str, expected: Expected, is_passed: bool) -> str | None:

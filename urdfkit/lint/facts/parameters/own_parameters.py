@@ -37,7 +37,13 @@ _EVERY_NODE = ("use_sim_time", "qos_overrides", "start_type_description_service"
 _ALL_NAMES = r"\b(?:declare_parameters?|get_param)\s*(?:<[^<>]*>)?\s*\(\s*(?:\"\"\s*,|''\s*,)?\s*(?![\"'\[])"
 """Matches a call that declares or reads a parameter with a computed name."""
 
+_NUMBER = "number"
+"""Type of a parameter of ROS 1, which may be an integer or a number with a decimal point."""
+
 _OTHER_BASE = r"class\s+\w+\s*\(\s*(?!(?:\w+\.)*Node\b)\w|:\s*public\s+(?!rclcpp::Node\b)\w"
+_NUMBER_OF_ROS1 = r"\bget_param\s*\(\s*[\"']~([\w/]+)[\"']\s*,\s*[-+]?[\d.]+\s*\)"
+"""Matches a call that reads a private parameter of rospy whose default is a number."""
+
 _FROM_ROS1 = r"\bget_param\s*\(\s*[\"']~([\w/]+)[\"']"
 
 
@@ -97,7 +103,11 @@ def wrong_types_in_launch(model: Model) -> Defects:
     for each in _settings(model):
         found = code.of(each.package, each.program) if each.type else None
         expected = found.types.get(each.name.name, "") if found is not None else ""
-        if expected and expected != each.type:
+        if expected == _NUMBER:
+            if each.type == "text" and not re.search(r"\d[-+*/ ]+\d|\(", each.value.name):
+                message = f"`{each.name.name}` is `{each.value.name}`, which is not a number"
+                yield each.source, (each.value.start, each.value.end), message
+        elif expected and expected != each.type:
             yield _wrong_type(each, expected, "node ")
 
 
@@ -123,6 +133,7 @@ class _Codes:
             return None
         path, text = texts[0]
         types = dict(declared_in(path, text)) | dict.fromkeys(re.findall(_FROM_ROS1, text), "")
+        types |= dict.fromkeys(re.findall(_NUMBER_OF_ROS1, text), _NUMBER)
         is_complete = not re.search(_ALL_NAMES, text) and not re.search(_OTHER_BASE, text)
         return _Code(types, is_complete, text) if types else None
 

@@ -8,11 +8,13 @@ nav2_voxel_grid (voxel_grid.cpp), which has no more than 16 layers and drops the
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
+from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.tables import ORDERED
 
 _RANGES = """
@@ -99,10 +101,27 @@ def _ranges() -> dict[str, _Row]:
     return found
 
 
-def out_of_range(source: Source) -> Iterator[tuple[Node, str]]:
-    """Yield the numbers in a YAML file that are far outside of the sensible range of their parameter."""
+def groups_of_launch(source: Source) -> list[Node]:
+    """Return the constant parameters of each node in an XML or YAML launch file, as in a parameter file."""
+    found = []
+    for element in all_elements(source):
+        parts = [child.attributes for child in element.children if child.tag == "param"]
+        pairs = [(each["name"], each["value"]) for each in parts if {"name", "value"} <= each.keys()]
+        entries = [(_text(source, name), _text(source, value)) for name, value in pairs if "$" not in value.name]
+        if element.tag == "node" and entries:
+            found.append(Node("group", "", tuple(entries), (), entries[0][0].line, entries[0][0].column))
+    return found
+
+
+def _text(source: Source, named: Named) -> Node:
+    position = source.position(named.start)
+    return Node("text", named.name.strip(), (), (), position.line, position.column, True)
+
+
+def out_of_range(groups: Iterable[Node]) -> Iterator[tuple[Node, str]]:
+    """Yield the numbers in groups of parameters that are far outside of the sensible range of their parameter."""
     ranges, seen = _ranges(), set[tuple[int, int]]()
-    for node in (node for node in nodes(source) if node.entries):
+    for node in (node for node in groups if node.entries):
         names = {key.text for key, _ in node.entries}
         for key, value in node.entries:
             yaw = value.find("yaw") if key.text == "initial_pose" else None

@@ -4,7 +4,7 @@ A name that occurs twice in the files of the packages is accepted, because two n
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.related_files import LAUNCH
@@ -53,12 +53,20 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
         for node, kind, _ in misspelt_navigation(source)
         if kind == "topic"
     }
+    found: list[tuple[Mention, str]] = []
+    moved = {last(new.name) for node in launched_nodes(model) for _, new in node.remappings if "$" not in new.name}
     for mention in mentions(model):
         if (mention.source.file, mention.topic.start) in seen or "$" in mention.topic.name:
             continue
-        near = _meant(mention, topics)
+        near = _meant(mention, topics, moved)
         if near is not None and words.occurs_once(_part(mention.topic.name, near)):
             seen.add((mention.source.file, mention.topic.start))
+            found.append((mention, near))
+    for mention, near in found:
+        pair = next((other for other, name in found if other.topic.name == near and name == mention.topic.name), None)
+        # Of two names that differ by a letter, the one with the rarer word is misspelt.
+        ranks = [(words.count_of(each.topic.name), -each.topic.start) for each in (mention, pair) if each is not None]
+        if pair is None or ranks[0] < ranks[1]:
             span = mention.source.span(mention.topic.start, mention.topic.end)
             yield span, mention.topic.name, Suggestion(near, mention.topic.name)
     for mention, others in unpublished(model, words):
@@ -153,14 +161,21 @@ def _has_camera_driver(model: Model) -> bool:
     return any(re.search(_CAMERA_DRIVERS, source.text) for source in model.related_files.values())
 
 
-def _meant(mention: Mention, topics: RobotTopics) -> str | None:
-    """Return the whole name of the topic that a mention stands for; None if it may be right."""
+def _meant(mention: Mention, topics: RobotTopics, moved: Set[str]) -> str | None:
+    """Return the whole name of the topic that a mention stands for; None if it may be right.
+
+    Args:
+        mention: the mention.
+        topics: the topics of the robot.
+        moved: the topics to which launch files remap those of nodes.
+    """
     name = mention.topic.name
     end = last(name)
     space, _, _ = name.rstrip("/").rpartition("/")
     first = name.strip("/").partition("/")[0]
     if space.strip("/") and not mention.is_input and first not in topics.controllers:
-        near = [each for each in sorted(topics.controllers) if len(each) > 5 and is_slip(first, each)]
+        known = sorted(each for each in topics.controllers if len(each) > 5 and each != first)
+        near = [each for each in known if is_slip(first, each) or re.sub("s_", "_", first) == re.sub("s_", "_", each)]
         if len(near) == 1:
             return name.replace(first, near[0], 1)
     if end in COMMON or end in topics.names or end in _ACCEPTED.split() or len(end) < 3:
@@ -168,6 +183,7 @@ def _meant(mention: Mention, topics: RobotTopics) -> str | None:
     # launch-name-misspelt reports `joint_states` and `robot_description` in launch files.
     is_launch = mention.source.file.endswith(LAUNCH)
     names = topics.names - {"joint_states", "robot_description"} if is_launch else topics.names
+    names = names | (moved if end in moved else frozenset())
     strong = [each for each in sorted(names) if _is_misspelling(end, each, True)]
     near = strong or [each for each in sorted(COMMON) if _is_misspelling(end, each, False)]
     if len(near) == 1:

@@ -59,7 +59,13 @@ _OF_ROS1 = {
 }
 """ROS 1 package → topics of its node that launch files usually remap."""
 
+_DESCRIBED = ("joint_state_publisher", "joint_state_publisher_gui", "robot_state_publisher", "controller_manager")
+"""Packages whose nodes exchange or read the description of the robot."""
+
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
+
+_OF_FRAME = r"(?m)^\s*\w*frame(?:_id)?\s*:.*$"
+"""Matches a parameter that is a frame, which can have the name of a topic."""
 
 _SENDERS = ("twist_mux", "controller_server", "velocity_smoother", "teleop_node")
 """Programs whose velocity commands must reach the drive without a remapping on the command line."""
@@ -75,7 +81,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     shared = {(node.source.file, old.start) for node in nodes for old, _ in node.remappings if _is_own(node, old)}
     for node in nodes:
         for old, new in node.remappings:
-            if new.name.startswith("~/") and re.fullmatch(rf"/?{re.escape(new.name[2:])}", old.name):
+            if re.fullmatch(rf"~/?{re.escape(old.name.strip('/'))}", new.name) and not old.name.startswith("~"):
                 yield node.source, old, f"the names of this remapping are swapped; write `{new.name}` first"
             elif (
                 ("$" in old.name or old.name.strip("/") in inputs)
@@ -87,6 +93,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                     old,
                     f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names",
                 )
+        yield from _undescribed(node, model)
         for old, message in _swapped(node):
             if (node.source.file, old.start) not in seen | shared:  # several nodes can have one list of remappings
                 seen.add((node.source.file, old.start))
@@ -103,7 +110,9 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
             name = old.name.removeprefix("~").strip("/")
             is_moved = "/" in name and name.rpartition("/")[2] in accepted and new.name.strip("/") not in names
             texts = [_settings(node, files[file]) if file in files else name for file in node.files]
-            is_read = any(re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", text) for text in texts)
+            is_read = any(
+                re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", re.sub(_OF_FRAME, "", text)) for text in texts
+            )
             if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or is_read:
                 continue
             left = [each for each in names if each not in written]
@@ -111,11 +120,27 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
             yield node.source, old, f"`{label}` has no topic `{name}`" + Suggestion(near, name)
 
 
+def _undescribed(node: LaunchedNode, model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the new name of the robot description of a node, if no other file has this name."""
+    for old, new in node.remappings if node.package in _DESCRIBED else ():
+        name = new.name.strip("/")
+        is_moved = old.name.strip("/") == "robot_description" and re.fullmatch(r"[\w/]+", name) is not None
+        if is_moved and not Words(model).names(name, [(node.source.file, new.start)]):
+            yield node.source, new, f"no other file names `{name}`, so `{node.program}` is without a description"
+
+
 def _settings(node: LaunchedNode, file: Source) -> str:
     """Return the text of the sections of a node in its parameter file; the whole text if none has its name."""
     own = [group for key, group in sections(file) if node.name is not None and key.last_name == node.name.name]
     is_shared = not own or any("*" in key.text for key, _ in sections(file))
-    return file.text if is_shared else "\n".join(each.text for group in own for each in walk(group))
+    groups = [each for group in own for each in walk(group)]
+    values = [each for group in groups for key, value in group.entries for each in _values(key, value)]
+    return file.text if is_shared else "\n".join(each.text for each in values)
+
+
+def _values(key: Node, value: Node) -> tuple[Node, ...]:
+    """Return a value and the items of a list, unless it is a frame."""
+    return (value, *value.items) if not re.search(r"frame(?:_id)?$", key.text) else ()
 
 
 def _unfed(model: Model, published: set[str]) -> LaunchedNode | None:

@@ -33,6 +33,12 @@ class Words:
             return False
         return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code) and not self._is_cut
 
+    def count_of(self, name: str) -> int:
+        """Return how often the rarest part of a name, between underscores, occurs in the files in any name."""
+        parts = [part for part in re.split(r"[\W_]+", name) if part]
+        counts = Counter(part for word, times in self._counts.items() for part in [*word.split("_")] * times)
+        return min((counts[part] for part in parts), default=0)
+
     def names(self, topic: str, places: Collection[tuple[str, int]], without_rviz: bool = False) -> bool:
         """Return whether a file names a whole topic, apart from places that are known: file and offset.
 

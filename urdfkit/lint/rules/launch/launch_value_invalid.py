@@ -143,6 +143,10 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
         if attribute.value.strip().lower() not in words:
             what = "condition" if is_condition else f"`{name}`"
             yield attribute, f"{what} `{attribute.value}` is neither true nor false"
+    both = [attributes.get(name) for name in ("required", "respawn")] if version == 1 and tag.name == "node" else []
+    if both and all(each is not None and each.value.lower() in ("true", "1") for each in both):
+        respawn = attributes["respawn"]
+        yield respawn, "`respawn` and `required` are both true, which roslaunch refuses; remove one"
     output = attributes.get("output") if tag.name in ("node", "test", "executable") else None
     if output is not None and not is_output(output.value, version):
         yield output, f"unknown output `{output.value}`" + did_you_mean(output.value, OUTPUTS[version])

@@ -60,12 +60,12 @@ class BridgeMisspelt(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid key, type, topic or direction."""
+        yield from self._worlds(model)
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
         from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, REQUIRED, in_launch, in_yaml, malformed_in_launch
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_worlds
         from urdfkit.lint.fix_builders import nearest
 
         bridges: list[tuple[Source, Bridged]] = []
@@ -92,10 +92,6 @@ class BridgeMisspelt(RobotRule):
             defect = _type_defect(bridge) or _direction_defect(bridge) or _former_type(bridge, model)
             if defect is not None:
                 yield self._at(source, *defect)
-        for source, start, world, worlds in topics_of_other_worlds(model):
-            near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
-            message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
-            yield self.at_span(source.span(start, start + len(world)), message)
         below: dict[str, set[str]] = {}
         for _, bridge in bridges:
             space, _, last = (bridge.topic.name if bridge.topic is not None else "").strip("/").rpartition("/")
@@ -116,6 +112,15 @@ class BridgeMisspelt(RobotRule):
                 details = {"other": place, "is_other_wrong": True, "cause": "topic", "message": text}
                 found = Finding(**{**found.__dict__, **details, "suggestion": None})
             yield found
+
+    def _worlds(self, model: Model) -> Findings:
+        from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_worlds
+        from urdfkit.lint.fix_builders import nearest
+
+        for source, start, world, worlds in topics_of_other_worlds(model):
+            near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
+            message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
+            yield self.at_span(source.span(start, start + len(world)), message)
 
     def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
         span = source.span(reference.start, reference.end)

@@ -82,7 +82,7 @@ class FrameUndefined(RobotRule):
         for source, frame in unknown_frames(model):
             span = source.span(frame.start, frame.end)
             hint = meant(frame.name, links_by_name)[1]
-            message = f"robot `{model.robot.name}` has no link `{frame.name}`, the frame of this driver" + hint
+            message = f"robot `{model.robot.name}` has no link `{frame.name}`, the frame of this node" + hint
             yield self.at_span(span, message, link=frame.name)
         for source in model.related_files.values():
             for match in _named(source, uncommented(source)):

@@ -7,9 +7,10 @@ class ParameterOutOfRange(RobotRule):
     """A time, rate, length, velocity or proportion in YAML is far outside the sensible range.
 
     ## What it does
-    Compares parameters of controllers, Nav2, move_base, robot_localization, slam_toolbox, gmapping, amcl, twist_mux,
-    teleop nodes, maps and MoveIt with the sensible range of each parameter, which is many times wider than the values
-    in the examples of its package. Values of zero and below are accepted, because they often disable a function.
+    Compares parameters in YAML and in XML launch files with the sensible range of each parameter, which is many times
+    wider than the values in the examples of its package: those of controllers, Nav2, move_base, robot_localization,
+    slam_toolbox, gmapping, amcl, twist_mux, teleop nodes, maps and MoveIt. Values of zero and below are accepted,
+    because they often disable a function.
 
     ## Why is this bad?
     The nodes accept such a value. Usually a decimal point is misplaced, or the value has another unit, such as
@@ -30,9 +31,13 @@ class ParameterOutOfRange(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter outside of its range."""
-        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
-        from urdfkit.lint.facts.parameters.ranges import out_of_range
+        from urdfkit.description.packages.related_files import LAUNCH
+        from urdfkit.lint.facts.control.yaml_tree import nodes, span_of, yamls
+        from urdfkit.lint.facts.parameters.ranges import groups_of_launch, out_of_range
 
-        for source in yamls(model):
-            for node, message in out_of_range(source):
+        groups = [(source, nodes(source)) for source in yamls(model)]
+        launches = [each for name, each in model.related_files.items() if name.endswith(LAUNCH)]
+        groups += [(each, iter(groups_of_launch(each))) for each in launches if not each.file.endswith(".py")]
+        for source, found in groups:
+            for node, message in out_of_range(found):
                 yield self.at_span(span_of(source, node), message)

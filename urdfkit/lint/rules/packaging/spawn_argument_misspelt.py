@@ -88,6 +88,7 @@ class SpawnArgumentMisspelt(RobotRule):
             names_as_files,
             spawned_in_the_ground,
             undefined_parameters,
+            wrong_formats,
         )
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
 
@@ -119,7 +120,9 @@ class SpawnArgumentMisspelt(RobotRule):
                     span = source.span(start, start + len(text))
                     yield self.at_span(span, message, severity="warning", kind="height")
                 for start, text, message in (
-                    (*undefined_parameters(node, model), *names_as_files(node)) if is_own else ()
+                    (*undefined_parameters(node, model), *names_as_files(node), *wrong_formats(node, model))
+                    if is_own
+                    else ()
                 ):
                     yield self.at_span(source.span(start, start + len(text)), message, severity="warning")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
