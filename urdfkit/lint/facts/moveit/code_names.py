@@ -91,8 +91,8 @@ def _undefined(
             continue
         what = "state of a group" if kind == _STATE else kind
         where = "the SRDF" if kind in (_GROUP, _STATE) else f"robot `{model.robot.name}`"
-        known = states if kind == _STATE else defined[kind]
-        hint = meant(name.name, known)[1] or (f"; it has {_listed(known)}" if 0 < len(known) < 6 else "")
+        existing = states if kind == _STATE else defined[kind]
+        hint = meant(name.name, existing)[1] or (f"; it has {_listed(existing)}" if 0 < len(existing) < 6 else "")
         yield name, f"{what} `{name.name}` does not exist in {where}" + hint
 
 

@@ -73,11 +73,11 @@ def refused_values(model: Model) -> Iterator[tuple[Span, str]]:
 def _truth_for_a_path(name: str, value: str, file: LaunchActions, actions: LaunchActions) -> str | None:
     """Return the message for a truth value that an include passes to an argument whose default is a path."""
     use = re.fullmatch(ARGUMENT_USE, value.strip())
-    given = file.defaults.get(use[1], "") if use is not None else value
+    written = file.defaults.get(use[1], "") if use is not None else value
     default = actions.defaults.get(name, "")
-    if given.strip().lower() not in ("true", "false") or not re.search(r"/[\w.-]+\.\w+\s*$", default):
+    if written.strip().lower() not in ("true", "false") or not re.search(r"/[\w.-]+\.\w+\s*$", default):
         return None
-    passed = f"`{use[1]}`, which is `{given}`" if use is not None else f"`{given}`"
+    passed = f"`{use[1]}`, which is `{written}`" if use is not None else f"`{written}`"
     return f"launch argument `{name}` is the path of a file, but this include passes {passed}"
 
 

@@ -174,8 +174,10 @@ def _meant(mention: Mention, topics: RobotTopics, moved: Set[str]) -> str | None
     space, _, _ = name.rstrip("/").rpartition("/")
     first = name.strip("/").partition("/")[0]
     if space.strip("/") and not mention.is_input and first not in topics.controllers:
-        known = sorted(each for each in topics.controllers if len(each) > 5 and each != first)
-        near = [each for each in known if is_slip(first, each) or re.sub("s_", "_", first) == re.sub("s_", "_", each)]
+        candidates = sorted(each for each in topics.controllers if len(each) > 5 and each != first)
+        near = [
+            each for each in candidates if is_slip(first, each) or re.sub("s_", "_", first) == re.sub("s_", "_", each)
+        ]
         if len(near) == 1:
             return name.replace(first, near[0], 1)
     if end in COMMON or end in topics.names or end in _ACCEPTED.split() or len(end) < 3:
