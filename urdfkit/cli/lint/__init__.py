@@ -55,7 +55,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--target",
         metavar="NAME",
         help="ros1, ros2, gz, classic (each optionally with a release: ros2-jazzy, gz-harmonic), mujoco, isaac, drake, "
-        "moveit, urdfkit, or any for only the rules that hold for all targets (default: guessed from package.xml)",
+        "moveit, urdfkit, or any to check only the rules that hold for all targets (default: guessed from package.xml)",
     )
     add("--format", choices=FORMATS, default="text", help="text (default), json, sarif, github or junit")
     add("--statistics", action="store_true", help="print the number of findings per rule")

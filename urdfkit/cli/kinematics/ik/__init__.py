@@ -39,7 +39,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add_tip(parser)
     add("--xyz", metavar="X,Y,Z", help="position of TIP in the base link [m]")
-    add("--quat", metavar="X,Y,Z,W", help="orientation of TIP as a quaternion (default: that of the base link)")
+    add(
+        "--quat", metavar="X,Y,Z,W", help="orientation of TIP as a quaternion (default: no rotation from the base link)"
+    )
     add("--rpy", metavar="R,P,Y", help="orientation of TIP as fixed-axis roll, pitch, yaw [rad]")
     add(
         "--targets",

@@ -24,8 +24,8 @@ class InterfaceLimits(RobotRule):
     limits is reported as a warning.
 
     ## Why is this bad?
-    One of the two values is wrong. With ``min`` above ``max`` no command is accepted, and the effect of limits wider
-    than those of the joint depends on the hardware.
+    One of the two values is wrong. With ``min`` above ``max``, no command is accepted. The effect of limits that are
+    wider than the joint limits depends on the hardware.
 
     ## Example
     ```diff

@@ -35,7 +35,7 @@ class LaunchValueInvalid(RobotRule):
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
-    - unknown plugins of MoveIt and of navigation, and those of the other version of ROS
+    - unknown plugins of MoveIt and of navigation, and plugins of the other version of ROS
     - parameter files with substitutions but without ``subst_value``, files that are loaded into the wrong namespace or
       parameter, and MoveIt files that no launch file loads
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization

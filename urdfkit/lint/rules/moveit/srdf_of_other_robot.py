@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class SrdfOfOtherRobot(RobotRule):
-    """The robot name of an SRDF differs from that of the URDF.
+    """An SRDF and the URDF have different robot names.
 
     ## What it does
     Compares the names in ``<robot name="…">`` if most links and joints in the SRDF exist in the robot. Nothing is

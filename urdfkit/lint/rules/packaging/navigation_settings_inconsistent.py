@@ -11,7 +11,7 @@ class NavigationSettingsInconsistent(RobotRule):
 
     - costmap layers in the wrong order, and costmap topics that the server does not publish or cannot read
     - a local costmap that does not move with the robot
-    - a global frame that moves with the robot, or differs from that of the static map
+    - a global frame that moves with the robot, or differs from the frame of the static map
     - an inflation radius below the inscribed radius of the footprint
     - footprints whose sides cross or that do not contain the origin, and a radius next to a footprint
     - a local costmap that is updated too rarely for the speed of the robot

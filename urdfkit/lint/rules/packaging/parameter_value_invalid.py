@@ -30,7 +30,7 @@ class ParameterValueInvalid(RobotRule):
     - rates, wheel sizes, limits and tolerances that are negative, zero or not a number
     - numbers and Boolean values in quotes, and names that are not in a list
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
-    - an update rate that is higher than that of the physics of Gazebo
+    - an update rate that is higher than the rate of Gazebo's physics
     - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
     - minimum velocities above zero, and parameters with the indentation of a controller name
 

@@ -38,7 +38,7 @@ class JointContradictsName(RobotRule):
 
     - A ``slide``, ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint does not rotate.
     - A prismatic ``lift``, ``elevator`` or ``fork`` moves vertically, and upwards if all its positions are positive. A
-      revolute one does not have a vertical axis.
+      revolute ``lift``, ``elevator`` or ``fork`` does not have a vertical axis.
     - ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``, ``pitch`` and ``knee``
       joints do not.
 

@@ -8,7 +8,7 @@ TOLERANCE = 0.05
 
 
 class WheelDiameter(RobotRule):
-    """The configured wheel diameter or radius of a drive differs from that of the wheels.
+    """The configured wheel diameter or radius of a drive differs from the size of the wheels.
 
     ## What it does
     Compares the parameter of the drive with the cylinders and spheres of its wheels. Deviations of up to 5 % are

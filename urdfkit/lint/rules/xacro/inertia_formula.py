@@ -9,8 +9,8 @@ class InertiaFormula(SourceRule):
     """A formula for a moment of inertia has a wrong term.
 
     ## What it does
-    Compares the formulas in ``<inertia>`` with those of a solid box, cylinder and sphere, regardless of the names of
-    their variables. If two of the three moments match a shape and the third does not, the third is reported.
+    Compares the formulas in ``<inertia>`` with the formulas for a solid box, cylinder and sphere, regardless of the
+    names of the variables. If two of the three moments match a shape and the third does not, the third is reported.
 
     ## Why is this bad?
     A widely copied box macro has ``x*x+z*z`` in ``izz``, which is correct only for cubes. Every link that uses it has a
