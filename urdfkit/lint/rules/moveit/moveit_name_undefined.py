@@ -15,8 +15,8 @@ class MoveitNameUndefined(RobotRule):
     ## What it does
     Checks YAML files in packages with an SRDF of the robot for:
 
-    - groups that have a kinematics solver but are not defined in the SRDF
-    - joints in ``joint_limits`` and in controllers that do not exist in the robot
+    - groups with a kinematics solver that the SRDF does not define
+    - joints of ``joint_limits`` and of controllers, if the robot does not have them
     - poses in the ``initial`` list of the fake controllers that are not states of their group
     - names in ``controller_names`` without a section
     - controllers that no YAML file of these packages defines: misspelt names, and in ROS 1 names without their
