@@ -29,7 +29,7 @@ CASES = {
         False,
     ),
     "name": (finding("S907", "wheels", joint="a", names=("b",)), finding("S909", "joints", names=("b", "c")), True),
-    "other name": (finding("S907", "wheels", joint="a"), finding("S909", "joints `a`", names=("c", "d")), False),
+    "other name": (finding("S907", "wheels", joint="a"), finding("S909", "joints `a`", 9, names=("c", "d")), False),
     "call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("c",),)), True),
     "other call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("d",),)), False),
     "inner call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("d", "c"),)), True),

@@ -72,7 +72,8 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
         else:  # one value causes several findings
             first = found[at_literals[key]]
             chains = tuple(dict.fromkeys((*first.chains, *finding.chains)))
-            found[at_literals[key]] = Finding(**{**first.__dict__, "chains": chains})
+            names = (*first.names, *(name for name in (finding.link, finding.joint) if name))
+            found[at_literals[key]] = Finding(**{**first.__dict__, "chains": chains, "names": names})
     return found
 
 

@@ -12,6 +12,7 @@ from urdfkit.lint.engine.cache import packages_of
 from urdfkit.lint.engine.contradictions import at_wrong_side
 from urdfkit.lint.engine.package_without_robot import empty_root, package_model, package_rules
 from urdfkit.lint.engine.rule_runner import RuleRunner
+from urdfkit.lint.facts.values.missing_calls import with_missing_calls
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.element_facts import ElementFacts
 from urdfkit.lint.model.model import Model
@@ -223,7 +224,7 @@ class Checker:
 
             findings, used, unused = without_suppressed(findings, model, entry, options, self.runner)
         if model.target != "urdfkit":
-            findings = at_wrong_side(findings)
+            findings = at_wrong_side(with_missing_calls(findings, model))
         here = str(Path.cwd())
         related = model.related_files if model.expanded.root is not None else ()
         read = (*model.expanded.sources, *related, *(each.file for each in findings))  # such as YAML files of xacro

@@ -44,4 +44,5 @@ def _moved(span: Span, group: Iterable[Finding]) -> Finding:
         else "the other places contradict this one; correct this place or all of the others"
     )
     details = {"help": help, "span": span, "fix": None, "chains": (), "cause": "", "other": None, "related": related}
+    details["trail"] = ()
     return Finding(**{**first.__dict__, **details})

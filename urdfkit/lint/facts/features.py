@@ -32,6 +32,8 @@ from urdfkit.lint.model.element_facts import ElementFacts
 _TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 _FAR = 2.0 * pi
 """[rad]: larger limits and angles are suspicious."""
+_TINY = 0.11
+"""[rad]: if both limits of a revolute joint are smaller, they may have been converted to radians twice."""
 _PART = re.compile(r"left|front|steer|wheel|(?<![a-z])(?:f[lr]|[rb]l|l[fbh]|rf|l)(?![a-z])", re.IGNORECASE)
 """Matches names of joints that have a counterpart or a purpose."""
 
@@ -217,4 +219,6 @@ def _is_valid(limit: Limit, kind: str | None) -> bool:
         return False
     if kind == "continuous":
         return limit.element.attributes.keys().isdisjoint(("lower", "upper"))
-    return kind in ("revolute", "prismatic") and -_FAR <= (limit.lower or 0.0) < (limit.upper or 0.0) <= _FAR
+    lower, upper = limit.lower or 0.0, limit.upper or 0.0
+    is_tiny = kind == "revolute" and max(-lower, upper) < _TINY
+    return kind in ("revolute", "prismatic") and -_FAR <= lower < upper <= _FAR and not is_tiny

@@ -12,17 +12,18 @@ def equal_call(model: Model, first: Element, other: Element) -> Position | None:
 
     None if another macro, or none, produced one of them, or if the calls pass no number: then the macro is wrong.
     """
-    one, two = first.origin.expansions[:1], other.origin.expansions[:1]
-    if first.origin.position != other.origin.position or not one or not two or one[0].position == two[0].position:
+    chains = (reversed(first.origin.expansions), reversed(other.origin.expansions))
+    different = next((pair for pair in zip(*chains, strict=False) if pair[0].position != pair[1].position), None)
+    if first.origin.position != other.origin.position or different is None:
         return None
-    calls = [model.tag(each.position) for each in (one[0], two[0])]
+    calls = [model.tag(each.position) for each in different]
     values = [
         {name: found for name, each in call.attributes.items() if (found := number(each.value)) is not None}
         for call in calls
         if call is not None
     ]
     common = values[0].keys() & values[1].keys() if len(values) == 2 else ()
-    return two[0].position if common and all(values[0][name] == values[1][name] for name in common) else None
+    return different[1].position if common and all(values[0][name] == values[1][name] for name in common) else None
 
 
 def with_calls_of(finding: Finding, twin: Element) -> Finding:

@@ -90,9 +90,9 @@ def shared_argument(model: Model, element: Element, other: Element) -> Place | N
     for name in macro.parameters:
         values = [value_of(model, name, each) for each in (calls, others)]
         numbers = [number(value.strip()) for value, _, _ in values]
-        if numbers[0] != numbers[1]:
+        if numbers[0] != numbers[1] and (name in used or None not in numbers):
             return None
-        if numbers[0] is not None and name in used:
+        if name in used and (numbers[0] is not None or values[0][0] == values[1][0]):
             found = values[0][1]
     return found
 

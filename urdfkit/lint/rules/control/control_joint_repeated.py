@@ -82,13 +82,15 @@ class ControlJointRepeated(RobotRule):
             first, second = (index for index, each in enumerate(names) if each == name)
             lacks = _nearest(name, lacking)
             wrong = second if lacks is None or _is_sorted(names, second, lacks, order) else first
+            if lacks is not None and call_of(entries[first][1], [entries[second][1]]) is not None:
+                wrong = second if order[lacks] > order[name] else first  # a call repeats more than one joint
             element, other = entries[wrong][1], entries[first + second - wrong][1]
             message = f"{what} `{name}`" + (f"; joint `{lacks}` is missing" if lacks is not None else "")
             place = call_of(element, [other]) or element
             if (position := getattr(place, "origin", place)) in places:
                 continue  # The other side, from the same macro.
             places.add(position)
-            listed = (lacks,) if lacks is not None else ()
+            listed = () if lacks is None else (lacks,) if place is element else tuple(lacking)
             yield self.at(model, place, message, attribute="name", joint=name, names=listed)
 
 

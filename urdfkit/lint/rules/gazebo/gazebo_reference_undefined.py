@@ -92,5 +92,6 @@ class GazeboReferenceUndefined(RobotRule):
                 else None,
                 severity="warning" if is_leftover else None,
                 kind="reference",
+                names=(name,),
             )
             yield from unless_masked(model, name, near, finding)

@@ -2,10 +2,14 @@
 
 from math import dist
 
+from urdfkit.description.urdf.robot import GazeboBlock, SensorTag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id")
 _WORDS = ("ray", "lidar", "camera", "depth")
+
+_SMALL = ("imu", "gps", "navsat", "magnetometer", "altimeter")
+"""Types of sensors whose data may be in the frame of the base."""
 
 _AWAY = 0.05
 """Distance from the sensor from which a frame is not that of its lens or scanner [m]."""
@@ -16,7 +20,8 @@ class SensorFrameElsewhere(RobotRule):
 
     ## What it does
     Compares ``frameName``, ``frame_name`` and ``gz_frame_id`` of lidars and cameras with the link of the sensor.
-    Reports the frame of a link that is at least 5 cm away from it. Sensors with a ``<pose>`` other than zero are not
+    Reports the frame of a link that is at least 5 cm away from it. For an IMU or GPS, reports the link or frame of
+    another sensor. Sensors with a ``<pose>`` other than zero are not
     checked. None of two hundred public robots has such a sensor.
 
     ## Why is this bad?
@@ -55,6 +60,7 @@ class SensorFrameElsewhere(RobotRule):
         for block in model.robot.gazebo:
             place = model.frames.get(block.reference or "")
             for sensor in block.sensors if place is not None else ():
+                yield from self._of_other_sensor(sensor, block, model)
                 pose = sensor.element.find("pose")
                 is_moved = pose is not None and any(word.strip("+-0.") for word in (pose.text or "").split())
                 if is_moved or not any(word in (sensor.type or "") for word in _WORDS):
@@ -67,3 +73,25 @@ class SensorFrameElsewhere(RobotRule):
                         message += f"from link `{block.reference}` with the sensor"
                         help = f"write `{block.reference}`"
                         yield self.at(model, element, message, link=block.reference, help=help)
+
+    def _of_other_sensor(self, sensor: SensorTag, block: GazeboBlock, model: Model) -> Findings:
+        """Yield a finding for an IMU, GPS or similar sensor with the frame or the link of another type of sensor."""
+        if sensor.type not in _SMALL:
+            return
+        others = {
+            one.reference: other.type
+            for one in model.robot.gazebo
+            for other in one.sensors
+            if one.reference and other.type != sensor.type
+        }
+        for element in sensor.element.walk():
+            frame = (element.text or "").strip() if element.tag in _TAGS else ""
+            if frame == block.reference or frame not in model.robot.link_by_name:
+                continue
+            if frame in others:
+                message = f"<{element.tag}> names link `{frame}` of the sensor of type {others[frame]}"
+                yield self.at(model, element, message, link=block.reference, help=f"write `{block.reference}`")
+            elif block.reference in others:
+                message = f"sensor `{sensor.name}` is on link `{block.reference}` of another sensor, not on `{frame}`"
+                help, place = f'write reference="{frame}"', block.element
+                yield self.at(model, place, message, attribute="reference", link=block.reference, help=help)

@@ -1,6 +1,7 @@
 """Z823 sensor-range-invalid."""
 
 from collections.abc import Iterator
+from math import degrees
 
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers
@@ -68,6 +69,7 @@ class SensorRangeInvalid(RobotRule):
                         defects += _blind(child)
                     elif child.tag == "camera":
                         defects += senseless_camera(child, is_wide=sensor.type in WIDE)
+                        defects += _narrow(child)
                 for plugin in sensor.plugins:
                     if (spec := spec_of(plugin, model.target)) is not None:
                         defects += senseless_parameters(plugin, spec)
@@ -87,6 +89,18 @@ def _blind(lidar: Element) -> Iterator[tuple[Element, str]]:
     if limits is not None and low and high and _BLIND <= low[0] < high[0]:
         element = limits.find("min")
         yield element or limits, f"the lidar sees nothing that is nearer than {low[0]:g} m"
+
+
+_NARROW = 0.05
+"""Field of view below which a camera sees almost nothing [rad]."""
+
+
+def _narrow(camera: Element) -> Iterator[tuple[Element, str]]:
+    """Yield the field of view of a camera that was converted to radians twice."""
+    element = camera.find("horizontal_fov")
+    angle = numbers(element.text) if element is not None else None
+    if element is not None and angle and 0.0 < angle[0] < _NARROW:
+        yield element, f"<horizontal_fov> is {angle[0]:.3g} rad, only {degrees(angle[0]):.3g}°"
 
 
 _DEVIATIONS = ("stddev", "bias_stddev", "dynamic_bias_stddev", "gaussianNoise", "gaussian_noise")

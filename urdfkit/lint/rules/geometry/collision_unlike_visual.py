@@ -82,7 +82,10 @@ class CollisionUnlikeVisual(RobotRule):
             if found is not None:
                 message, help, part = found
                 shape = link.collisions[0].element
+                geometry = shape.find("geometry")
                 place = shape.find(part) or shape
+                if part == "shape" and geometry is not None and geometry.children:
+                    place = geometry.children[0]
                 yield self.at(
                     model, place, f"collision shape of link `{link.name}` {message}", link=link.name, help=help
                 )
@@ -117,7 +120,8 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     is_single = len(visuals) == len(collisions) == 1
     if max(ordered) <= 1.0 + _ALIKE:
         if max(ratios) >= _UNLIKE:
-            return "is rotated relative to the visual shape", "write the same <origin> and sizes for both", "origin"
+            part = "shape" if is_single and visuals[0][1] == collisions[0][1] else "origin"
+            return "is rotated relative to the visual shape", "write the same <origin> and sizes for both", part
         distance = dist(*([sum(pair) / 2.0 for pair in zip(*box, strict=True)] for box in boxes))
         if distance > _DISTANCE * max(sizes[1]):
             return f"is {distance:.3g} m away from the visual shape", "write the same <origin> for both", "origin"

@@ -1,11 +1,15 @@
 """J407 limits-in-degrees."""
 
-from math import pi, radians
+import re
+from math import degrees, pi, radians
 
 from urdfkit.description.urdf.robot import Limit
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_ROUND = 0.01
+"""Tolerance of multiples of half a degree [half degrees]."""
 
 
 class LimitsInDegrees(RobotRule):
@@ -13,6 +17,8 @@ class LimitsInDegrees(RobotRule):
 
     ## What it does
     Checks the limits of ``revolute`` joints for multiples of 0.5 that are greater than two turns (4π) and at most 360.
+    Also reports limits that an expression such as ``radians(1.57)`` converts although they are in radians: less than
+    6.3°, and no multiple of half a degree.
 
     ## Why is this bad?
     Limits are in radians: a limit of 90 rad allows more than fourteen turns. No tool reports an error, and the joint
@@ -63,10 +69,28 @@ class LimitsInDegrees(RobotRule):
                     help="write limits in radians" + converted,
                     fix=_in_radians(model, limit) if converted else None,
                 )
+            elif (tiny := _converted_twice(model, limit)) is not None:
+                value = getattr(limit, tiny)
+                message = f"{tiny} limit {value:.3g} rad of joint `{joint.name}` is only {degrees(value):.3g}°"
+                help = "write the value in degrees, or leave out its conversion"
+                yield self.at(model, limit.element, message, attribute=tiny, joint=joint.name, help=help)
 
 
 def _looks_like_degrees(value: float | None) -> bool:
     return value is not None and 4 * pi < abs(value) <= 360.0 and (2.0 * value).is_integer()
+
+
+def _converted_twice(model: Model, limit: Limit) -> str | None:
+    """Return the side of the larger limit if both limits are radians that an expression converts from degrees."""
+    sides = sorted(("lower", "upper"), key=lambda side: abs(getattr(limit, side) or 0.0))
+    largest = getattr(limit, sides[-1])
+    if not largest or abs(largest) > radians(2 * pi):
+        return None
+    tag = model.tag(limit.element.origin.position)
+    written = tag.attributes.get(sides[-1]) if tag is not None else None
+    is_converted = written is not None and re.search(r"radians\(|/\s*180", written.value) is not None
+    is_round = abs(2.0 * degrees(largest) - round(2.0 * degrees(largest))) < _ROUND
+    return sides[-1] if is_converted and not is_round else None
 
 
 def _in_radians(model: Model, limit: Limit) -> Fix | None:

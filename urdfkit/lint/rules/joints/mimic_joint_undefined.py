@@ -89,6 +89,7 @@ class MimicJointUndefined(RobotRule):
                 if suggestion
                 else None,
                 kind="undefined",
+                names=(mimic.joint,),
             )
             yield from unless_masked(model, mimic.joint, suggestion, finding)
         for block in model.robot.gazebo:

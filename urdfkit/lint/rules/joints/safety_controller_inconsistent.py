@@ -67,6 +67,7 @@ class SafetyControllerInconsistent(RobotRule):
                     help="swap the soft limits or correct their signs",
                 )
                 continue
+            is_reported = False
             for attribute, soft, hard, is_outside in (
                 (
                     "soft_lower_limit",
@@ -81,7 +82,8 @@ class SafetyControllerInconsistent(RobotRule):
                     1e-9 < safety.soft_upper_limit - limit.upper < DISABLED_DISTANCE,
                 ),
             ):
-                if is_outside and attribute in safety.element.attributes:
+                if is_outside and attribute in safety.element.attributes and not is_reported:
+                    is_reported = True  # the other limit usually has the same cause
                     yield self.at(
                         model,
                         safety.element,

@@ -65,7 +65,7 @@ class DriveWheelWithoutFriction(RobotRule):
             elements = list(block.element.walk()) if block.reference in wheels else []
             if any(element.tag == "fdir1" for element in elements):
                 continue
-            for element in (each for each in elements if each.tag in ("mu", "mu1")):
+            for element in (each for each in elements if each.tag in ("mu", "mu1", "mu2")):
                 text = (element.text or element.get("value") or "").strip()
                 if text and not text.strip("0.+-"):
                     name = block.reference

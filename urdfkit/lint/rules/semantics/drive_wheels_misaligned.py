@@ -119,11 +119,15 @@ class DriveWheelsMisaligned(RobotRule):
 
     def _at(self, model: Model, first: Wheel, other: Wheel, message: str, help: str) -> Finding:
         from urdfkit.lint.facts.macro_calls import equal_call, with_calls_of
+        from urdfkit.lint.facts.root_cause import shared_argument
 
         joint, names = other.joint, (first.joint.name,)
         is_misaligned = max(_distances(first, other)) >= _MIN_DISTANCE
         call = None if is_misaligned else equal_call(model, first.joint.element, joint.element)
         place, attribute = (joint.element, "name") if call is None else (call, None)
+        origins = [each.element.find("origin") for each in (joint, first.joint)]
+        if call is None and not is_misaligned and origins[0] is not None and origins[1] is not None:
+            place, attribute = shared_argument(model, origins[0], origins[1]) or (place, attribute)
         wrong = joint.element.find("axis" if _are_opposite(first, other) else "origin") if is_misaligned else None
         if wrong is not None:
             place, attribute = wrong, "xyz"

@@ -9,7 +9,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
 from urdfkit.lint.facts.placement.twin_overlaps import overlapping_twins
 from urdfkit.lint.facts.root_cause import shared_argument
-from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, twins
+from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, side_of, twins
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -35,6 +35,7 @@ class TwinsMisplaced(RobotRule):
     ``fl`` and ``fr``) or an end (``front`` and ``rear``). The coordinates of a left and a right part may differ only in
     one sign. The coordinates of a front and a rear part may differ only in one coordinate. Reports:
 
+    - a part of one side on the other side, together with its counterpart
     - counterparts in the same place, and coordinates that differ in a sign or a decimal point
     - moving joints that differ in a coordinate by more than a quarter of their distance from the parent, and wheels
       that differ by more than a twentieth
@@ -82,9 +83,14 @@ class TwinsMisplaced(RobotRule):
         """Yield a finding for each joint that does not match its counterpart, at most one for each joint."""
         if model.is_damaged:
             return
+        for joint, message, help in _on_other_side(model):
+            at_parent, both = joint.element.find("parent") or joint.element, (joint.child or "", *mirrored(joint.name))
+            yield self.at(model, at_parent, message, attribute="link", joint=joint.name, help=help, names=both)
+            return
         defects = [(pair, defect) for pair in twins(model) if (defect := _defect(pair, model)) is not None]
         counts = Counter(joint.name for pair, _ in defects for joint in (pair.first, pair.second))
         found: set[str] = set()
+        arguments: list[object] = []
         for pair, (message, help) in defects:
             wrong = pair.first if counts[pair.first.name] > counts[pair.second.name] else pair.second
             if found.isdisjoint((pair.first.name, pair.second.name)):
@@ -95,7 +101,9 @@ class TwinsMisplaced(RobotRule):
                 other = (pair.first if wrong is pair.second else pair.second).element.find("origin")
                 argument = shared_argument(model, origin, other) if other is not None else None
                 place, attribute = argument or (origin, "xyz")
-                yield self.at(model, place, message, attribute=attribute, joint=wrong.name, help=help, names=names)
+                if argument is None or argument not in arguments:
+                    arguments.append(argument)
+                    yield self.at(model, place, message, attribute=attribute, joint=wrong.name, help=help, names=names)
         for joint, message in (*_exchanged(model), *_equal_below_mirrored(model)) if not found else ():
             origin = joint.element.find("origin") or joint.element
             help = "check the signs of the coordinates"
@@ -111,6 +119,23 @@ class TwinsMisplaced(RobotRule):
             help = "check their sizes, and the distance between the two sides"
             yield self.at(model, place, message, link=overlapping.name, help=help)
             break
+
+
+def _on_other_side(model: Model) -> Iterator[tuple[Joint, str, str]]:
+    """Yield a joint whose parent is on the other side of the robot, like the parent of its counterpart."""
+    robot = model.robot
+    for joint in robot.joints:
+        child, parent = joint.child or "", joint.parent or ""
+        sides = side_of(child), side_of(parent)
+        if "" in sides or sides[0] == sides[1]:
+            continue
+        own = next((name for name in mirrored(parent) if name in robot.link_by_name), None)
+        others = (each for name in mirrored(child) for each in robot.parents_of.get(name, ()))
+        if own is None or any(side_of(each.child or "") == sides[1] for each in robot.joints if each.parent == own):
+            continue  # both feet have sensors on both sides
+        if any(each.parent == parent for each in others):
+            message = f"joint `{joint.name}` attaches `{child}` to `{parent}`, like its counterpart on the other side"
+            yield joint, message, f"write `{own}`"
 
 
 def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
