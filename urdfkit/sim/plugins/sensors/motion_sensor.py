@@ -99,9 +99,13 @@ class LinkSensor(Sensor):
     def _measure(self, sample: Sample) -> Any:
         """Return the reading, noise included."""
 
-    @abstractmethod
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return the function that builds the message of each topic in `topics` from a reading."""
+        """Return the function that builds the message of each topic in `topics` from a reading; see `message`."""
+        return (self.message,)
+
+    def message(self, reading: Any) -> Any:
+        """Return the message of the only topic from a reading; by default the reading is the message."""
+        return reading
 
     def act(self, state: State) -> None:
         """Publish the messages that are due, and store this state for the next measurement."""

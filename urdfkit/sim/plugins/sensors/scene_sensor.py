@@ -69,9 +69,13 @@ class SceneSensor(Sensor):
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
         """Return the observation of a layout of the scene from a frame of shape (4, 4)."""
 
-    @abstractmethod
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return the functions that build the messages of the first topics in `topics` from an observation."""
+        """Return the functions that build the messages of the first topics from an observation; see `message`."""
+        return (self.message,)
+
+    def message(self, seen: Any) -> Any:
+        """Return the message of the only topic from an observation; by default the observation is the message."""
+        return seen
 
     def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics from the time [s] alone."""

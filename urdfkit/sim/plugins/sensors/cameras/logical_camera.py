@@ -1,6 +1,5 @@
 """Logical camera of gz sim: reports the models whose origin is in its frustum, without occlusion."""
 
-from collections.abc import Callable
 from math import tan
 from typing import Any
 
@@ -65,11 +64,8 @@ class GzLogicalCamera(SceneSensor):
             self._near <= x <= self._far and abs(y) <= x * self._across and abs(z) <= x * self._across / self._aspect
         )
 
-    def messages(self) -> tuple[Callable[[Sight], Any], ...]:
-        """Return the function that builds the message of each topic in `topics`."""
-        return (self._message,)
-
-    def _message(self, sight: Sight) -> Any:
+    def message(self, sight: Sight) -> Any:
+        """Return the LogicalCameraImage of an observation."""
         t, frame, seen = sight
         model = message_type(GZ_LOGICAL_MODEL)
         models = [model(name, _pose(matmul(inverse_placement(frame), placement))) for name, placement in seen]

@@ -43,11 +43,8 @@ class BlockLaser(Lidar):
         self._deviation = read.number("gaussian_noise")
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), POINT_CLOUD),)
 
-    def messages(self) -> Messages:
-        """Return the function that builds the message of each topic in `topics`."""
-        return (self._cloud,)
-
-    def _cloud(self, reading: Reading) -> Any:
+    def message(self, reading: Reading) -> Any:
+        """Return the PointCloud of a reading."""
         farthest = min(self.scan.range_max, float(np.finfo(np.float32).max))
         ranges = np.clip(reading.ranges, self.scan.range_min, farthest).ravel()
         noise = self._deviation * reading.random.standard_normal((len(ranges), 4))
@@ -66,11 +63,8 @@ class Range(Lidar):
         self._ultrasound = self.is_ultrasound(setup, read)
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), RANGE),)
 
-    def messages(self) -> Messages:
-        """Return the function that builds the message of each topic in `topics`."""
-        return (self._range,)
-
-    def _range(self, reading: Reading) -> Any:
+    def message(self, reading: Reading) -> Any:
+        """Return the Range of a reading."""
         nearest = float(np.clip(reading.ranges, self.scan.range_min, self.scan.range_max).min())
         if nearest < self.scan.range_max:
             nearest += float(reading.random.normal(0.0, self._deviation))

@@ -86,11 +86,8 @@ class Velodyne(Lidar):
         name = topics.resolve(read.text("topic") if ros1 else "~/out")
         self.topics = (setup.bus.advertise(name, cloud_messages.POINT_CLOUD_2),)
 
-    def messages(self) -> Messages:
-        """Return the function that builds the message of each topic in `topics`."""
-        return (self._points,)
-
-    def _points(self, reading: Reading) -> Any:
+    def message(self, reading: Reading) -> Any:
+        """Return the PointCloud2 of a reading."""
         samples, rings = self.scan.samples, self.scan.rings
         ranges, intensities = reading.ranges.T.ravel(), reading.intensities.T.ravel()
         order = np.arange(rings * samples).reshape(rings, samples).T.ravel()

@@ -42,7 +42,7 @@ def pressure(height: float) -> float:
 
 
 class OneTopic(LinkSensor):
-    """Sensor of gz sim with one topic, which publishes without a plugin."""
+    """Sensor of gz sim with one topic, which publishes without a plugin; its reading is the message."""
 
     type: str
 
@@ -55,15 +55,6 @@ class OneTopic(LinkSensor):
     @abstractmethod
     def _read(self, setup: Setup, element: Element | None, surroundings: Surroundings) -> None:
         """Read the elements of this kind of sensor."""
-
-    def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return the function that builds the message of the topic: the reading is the message."""
-        return (itself,)
-
-
-def itself(message: Any) -> Any:
-    """Return a reading that is already a message."""
-    return message
 
 
 class GzAirPressure(OneTopic):

@@ -88,11 +88,8 @@ class Gps(LinkSensor):
         east, north, up = self._earth.compass(sample.motion.linear)
         return Fix(sample.t, (latitude, longitude, altitude + off[2]), np.array([north, -east, up]) + drift)
 
-    def messages(self) -> tuple[Callable[[Fix], Any], ...]:
-        """Return the function that builds the message of each topic in `topics`."""
-        return (self._message,)
-
-    def _message(self, fix: Fix) -> Any:
+    def message(self, fix: Fix) -> Any:
+        """Return the NavSatFix of a reading."""
         return message_type(FIX)(
             header(fix.t, self.frame), message_type("sensor_msgs/msg/NavSatStatus")(*self._status), *fix.place,
             np.diag(self._variances).ravel(), DIAGONAL_KNOWN,
@@ -143,7 +140,7 @@ class HectorGps(Gps):
 
     def messages(self) -> tuple[Callable[[Fix], Any], ...]:
         """Return the function that builds the message of each topic in `topics`."""
-        return self._message, self._velocity
+        return self.message, self._velocity
 
     def _velocity(self, fix: Fix) -> Any:
         return message_type(VELOCITY)(header(fix.t, self.frame), vector(fix.velocity.tolist()))

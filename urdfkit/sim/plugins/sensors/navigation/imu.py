@@ -5,7 +5,6 @@ earlier. Without subscribers it does not stop, and the mean covers the time sinc
 """
 
 from abc import abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -87,10 +86,6 @@ class Imu(LinkSensor):
             self._reference = KinematicSnapshot(self._kinematics, state).motion(self.link, self._mount).rotation
         super().act(state)
 
-    def messages(self) -> tuple[Callable[[Felt], Any], ...]:
-        """Return the function that builds the message of each topic in `topics`."""
-        return (self._message,)
-
     def _measure(self, sample: Sample) -> Felt:
         R = sample.motion.rotation
         rotation = matmul(self._offset, R if self._reference is None else matmul(self._reference.T, R))
@@ -103,7 +98,8 @@ class Imu(LinkSensor):
         )
         return self._err(true, sample)
 
-    def _message(self, felt: Felt) -> Any:
+    def message(self, felt: Felt) -> Any:
+        """Return the Imu message of a reading."""
         quaternion = from_matrix(felt.rotation) + felt.shaken
         quaternion = quaternion / vector_norm(quaternion)
         kind = message_type("geometry_msgs/msg/Quaternion")

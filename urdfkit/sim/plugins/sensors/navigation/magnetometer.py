@@ -1,6 +1,5 @@
 """Magnetometers: the world's magnetic field in the sensor's axes."""
 
-from collections.abc import Callable
 from math import cos, pi, radians, sin
 from typing import Any
 
@@ -12,7 +11,7 @@ from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
 from urdfkit.sim.plugins.sensors.motion_sensor import LinkSensor, Sample
-from urdfkit.sim.plugins.sensors.navigation.altimeter_and_barometer import OneTopic, itself
+from urdfkit.sim.plugins.sensors.navigation.altimeter_and_barometer import OneTopic
 from urdfkit.sim.plugins.sensors.navigation.geodesy import Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
 from urdfkit.sim.plugins.setup import Setup
@@ -68,7 +67,3 @@ class HectorMagnetic(LinkSensor):
         if self._is_field:
             return message_type(MAGNETIC_FIELD)(header(sample.t, self.frame), found, np.zeros(9))
         return message_type(VECTOR)(header(sample.t, self.frame), found)
-
-    def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return the function that builds the message of the topic: the reading is the message."""
-        return (itself,)
