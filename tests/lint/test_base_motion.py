@@ -142,3 +142,68 @@ def test_mecanum_wheels_pull_along_their_rollers(tmp_path, mu, mu2, across, coun
     messages = [one.message for one in lint(tmp_path / "barge.urdf", select=("S914",))]
     assert len(messages) == count
     assert all(message in each for each in messages)
+
+
+DOCKING = """docking_server:
+  ros__parameters:
+    enable_stamped_cmd_vel: true
+    dock_plugins: [charger]
+    docks: [home]
+    home: {type: charger, frame: map, pose: [0.0, 0.0, 0.0]}
+controller_server:
+  ros__parameters: {enable_stamped_cmd_vel: true}
+behavior_server:
+  ros__parameters: {enable_stamped_cmd_vel: true}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ("type: charger", "type: chargers", 6, "`dock_plugins` has no `chargers`; did you mean `charger`?"),
+        (
+            "server:\n  ros__parameters: {enable_stamped_cmd_vel: true",
+            "server:\n  ros__parameters: {enable_stamped_cmd_vel: false",
+            8,
+            "is false, but true for the other nodes",
+        ),
+    ],
+)
+def test_docks_and_stamps_of_a_file_agree(tmp_path, old, new, line, message):
+    (tmp_path / "right").mkdir()
+    assert findings(tmp_path / "right", FORWARDS | {"docking.yaml": DOCKING}) == []
+    [found] = findings(tmp_path, FORWARDS | {"docking.yaml": DOCKING}, "docking.yaml", old, new)
+    assert (found.code, found.line) == ("K971", line)
+    assert message in found.message
+
+
+def test_limits_of_an_axis_along_which_a_differential_drive_does_not_move(tmp_path):
+    limits = FORWARDS | {"control.yaml": DIFFERENTIAL.replace("false}", "false, linear: {x: {max_velocity: 1.0}}}")}
+    [found] = findings(tmp_path, limits, "control.yaml", "{x: {max", "{y: {max")
+    assert (found.code, found.line) == ("K971", 5)
+    assert "does not read `y` of `linear`; write `x`" in found.message
+
+
+SCANNER = """<robot name="barge"><link name="base_link"/><gazebo reference="base_link"><sensor name="lidar" type="ray">
+  <plugin name="lidar" filename="libgazebo_ros_ray_sensor.so"><ros><remapping>~/out:=scan</remapping></ros>
+  <output_type>sensor_msgs/LaserScan</output_type></plugin></sensor></gazebo></robot>"""
+MONITOR = """collision_monitor:
+  ros__parameters:
+    observation_sources: [bow]
+    bow:
+      topic: scan
+      type: scan
+      min_height: 0.1
+"""
+
+
+@pytest.mark.parametrize(("kind", "lines"), [("scan", []), ("pointcloud", [6])])
+def test_the_type_of_a_source_is_compared_with_its_topic(tmp_path, kind, lines):
+    files = {
+        "barge.urdf": SCANNER,
+        "package.xml": MANIFEST,
+        "nav2.yaml": MONITOR.replace("type: scan", f"type: {kind}"),
+    }
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    assert [one.line for one in lint(tmp_path) if one.code == "K985"] == lines

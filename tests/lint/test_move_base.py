@@ -22,6 +22,8 @@ COSTMAP = """local_costmap:
   update_frequency: 5.0
   rolling_window: true
   footprint: [[0.3, 0.2], [0.3, -0.2], [-0.3, -0.2], [-0.3, 0.2]]
+  width: 3.0
+  resolution: 0.05
   inflation: {inflation_radius: 0.4}
   obstacles:
     observation_sources: laser depth
@@ -42,8 +44,10 @@ MISTAKES = [
     ("move_base.yaml", "base_global", "global", 1, "no parameter `global_planner`; did you mean `base_global_planner`"),
     ("move_base.yaml", "global_planner/G", "global_planner::G", 1, "did you mean `global_planner/GlobalPlanner`?"),
     ("move_base.yaml", "RotateRecovery", "TurnRecovery", 4, "`rotate_recovery` has no plugin `TurnRecovery`"),
-    ("costmap.yaml", "  inflation:", "  robot_radius: 0.4\n  inflation:", 7, "no effect next to `footprint`"),
+    ("costmap.yaml", "  inflation:", "  robot_radius: 0.4\n  inflation:", 9, "no effect next to `footprint`"),
     ("costmap.yaml", "frequency: 5.0", "frequency: 0.5", 4, "the robot drives 1 m between two updates"),
+    ("costmap.yaml", "resolution: 0.05", "resolution: 0.3", 8, "more than the inscribed radius of the robot, 0.2 m"),
+    ("costmap.yaml", "width: 3.0", "width: 0.3", 7, "but the robot extends 0.361 m"),
     ("teb.yaml", "polygon", "circular", 4, "parameters of a footprint of the type `polygon`"),
     ("teb.yaml", "dist: 0.1", "dist: 0.5", 6, "so `inflation_dist`, 0.4 m, has no effect"),
 ]
@@ -69,5 +73,5 @@ def test_each_mistake_has_one_finding(tmp_path, name, old, new, line, message):
 
 def test_names_that_commas_separate(tmp_path):
     [found] = findings(tmp_path, "costmap.yaml", "laser depth", "laser, depth")
-    assert (found.code, found.line) == ("K971", 9)
+    assert (found.code, found.line) == ("K971", 11)
     assert "contains commas" in found.message

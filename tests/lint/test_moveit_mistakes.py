@@ -34,6 +34,7 @@ SRDF = """<robot name="arm">
   <end_effector name="tool" parent_link="tip" group="hand" parent_group="arm"/>
   <passive_joint name="left_wheel_joint"/>
   <passive_joint name="right_wheel_joint"/>
+  <virtual_joint name="floor" type="planar" parent_frame="odom" child_link="base"/>
 </robot>"""
 CONTROLLERS = """controller_manager:
   ros__parameters:
@@ -70,6 +71,14 @@ FILES = {
     "config/moveit_controllers.yaml": MOVEIT,
     "config/joint_limits.yaml": LIMITS,
     "config/initial_positions.yaml": FIRST,
+    "config/kinematics.yaml": "arm:\n  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin\n",
+    "config/pilz_planning.yaml": (
+        "planning_plugins: [pilz_industrial_motion_planner/CommandPlanner]\ndefault_planner_config: PTP\n"
+    ),
+    "config/sensors_3d.yaml": (
+        "sensors: [eye]\neye:\n  sensor_plugin: occupancy_map_monitor/PointCloudOctomapUpdater\n"
+        "  point_cloud_topic: points\n"
+    ),
 }
 MISTAKES = [
     ("arm.srdf", 'group="hand" parent_group', 'group="all" parent_group', "M105", 12, "contains its parent group"),
@@ -93,6 +102,19 @@ MISTAKES = [
         4,
         "is not",
     ),
+    (
+        "kinematics.yaml",
+        "arm:",
+        "all:",
+        "M109",
+        1,
+        "no chain: `left_finger` and `right_finger` are on different branches",
+    ),
+    ("arm.srdf", '"odom"', '"odomm"', "M105", 15, "unknown parent frame `odomm`"),
+    ("arm.srdf", 'joint name="floor"', 'joint name="j1"', "M105", 15, "has the name of a joint of the robot"),
+    ("arm.srdf", 'name="j2" value', 'name="j1" value', "M106", 6, "duplicate joint `j1` in `home`"),
+    ("pilz_planning.yaml", "PTP", "LINE", "M109", 2, "did you mean `LIN`?"),
+    ("sensors_3d.yaml", "PointC", "Pointc", "M109", 3, "did you mean `occupancy_map_monitor/PointCloudOctomapUpdater`"),
     ("initial_positions.yaml", "j2: 0.5", "j2: 1.5", "M109", 3, "the first position of joint `j2` is 1.5, beyond"),
 ]
 RIGHT = [

@@ -176,7 +176,7 @@ BAD = [
     ("behaviors", "PathDist.scale", "PathDst.scale", "K971", 15, "`critics` does not list `PathDst`"),
     ("behaviors", "max_vel_theta", "max_rot_vel", "K971", 12, "did you mean `max_vel_theta`?"),
     ("behaviors", "obstacle_max_range", "obstacle_range", "K971", 32, "did you mean `obstacle_max_range`?"),
-    ("behaviors", "Differential", "Omni", "K971", 5, "but no controller drives sideways"),
+    ("behaviors", "Differential", "Omni", "K982", 5, "but the controller does not drive sideways"),
     ("behaviors", "global_frame: odom", "global_frame: map", "K971", 27, "`local_frame` of behavior_server is `odom`"),
     (
         "behaviors",

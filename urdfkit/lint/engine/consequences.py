@@ -146,6 +146,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("S904", ""), "name", ("J413", "")),
     (("S907", ""), "name", ("K970", "place")),
     (("S907", ""), "name", ("S909", "")),
+    (("K959", ""), "meant", ("K962", "")),
+    (("M104", ""), "meant", ("M105", "")),
     (("M106", ""), "name", ("M107", "")),
     (("M109", ""), "line", ("M112", "partial")),
     (("M110", ""), "name", ("M102", "reason")),

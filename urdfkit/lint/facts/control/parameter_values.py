@@ -238,6 +238,7 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
     for one in settings(source):
         yield from _at_other_level(one)
         yield from _without_gains(one)
+        yield from _without_axis(one)
     for one in _with_parameters(source):
         written = {key.text for key, _ in one.group.entries}
         name = next(iter(names.get(id(one.group), ())), None)
@@ -246,6 +247,16 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
             is_elsewhere = parameter in _INTERFACES and not written & _INTERFACES
             if name is not None and parameter not in written and not is_elsewhere and not _is_near(parameter, one):
                 yield name, f"controller `{one.name}` has no `{parameter}`"
+
+
+def _without_axis(one: ControllerSettings) -> Defects:
+    """Yield the limits of axes along which a differential drive does not move."""
+    for name, axis in (("linear", "x"), ("angular", "z")) if one.kind.startswith("diff_drive_controller/") else ():
+        for key, value in one.group.entries:
+            wrong = [inner for inner, _ in value.entries if key.text == name and inner.text in "xyz".replace(axis, "")]
+            wrong += [key] if re.fullmatch(rf"{name}\.[xyz]\..*", key.text) and f".{axis}." not in key.text else []
+            for inner in wrong:
+                yield inner, f"controller `{one.name}` does not read `{inner.text}` of `{name}`; write `{axis}`"
 
 
 def _without_gains(one: ControllerSettings) -> Defects:

@@ -8,11 +8,11 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
-from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
-from urdfkit.lint.facts.moveit.settings import unwrapped
+from urdfkit.lint.facts.moveit.settings import entries, unwrapped
 from urdfkit.lint.facts.moveit.srdf import groups, joints_of
 
 
@@ -40,6 +40,40 @@ def projection_defects(
             yield node, f"joint `{unknown[0]}` of `projection_evaluator` does not exist in the robot"
         if node is not None and foreign:
             yield node, f"joint `{foreign[0]}` of `projection_evaluator` is not in group `{group.text}`"
+
+
+def without_chain(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:
+    """Yield the groups with a solver for chains whose joints are on several branches of the robot.
+
+    Source: moveit_kinematics (kdl_kinematics_plugin.cpp, "Group ... is not a chain"), Noetic to Rolling.
+    """
+    is_unique = len(robot.joint_by_name) == len(robot.joints)
+    for entry in entries(source) if is_unique else ():
+        solver = entry.settings.find("kinematics_solver") if entry.kind == "group" else None
+        if solver is None or not re.search(_FOR_CHAINS, solver.text):
+            continue
+        names = joints_of(entry.name.text, root, robot) or ()
+        joints = [robot.joint_by_name[name] for name in names if name in robot.joint_by_name]
+        joints = [joint for joint in joints if joint.is_movable]
+        ends = [joint for joint in joints if not any(_is_below(other, joint, robot) for other in joints)]
+        if len(ends) > 1:
+            names = " and ".join(f"`{joint.name}`" for joint in sorted(ends, key=lambda each: each.name)[:2])
+            yield entry.name, f"group `{entry.name.text}` is no chain: {names} are on different branches"
+
+
+_FOR_CHAINS = r"KDL|LMA|TRAC_IK|TRACIK"
+
+
+def _is_below(joint: Joint, above: Joint, robot: Robot) -> bool:
+    """Return whether a joint is farther from the root than another one, on the same branch."""
+    seen = set[str]()
+    at = next(iter(robot.parents_of.get(joint.parent or "", ())), None)
+    while at is not None and at.name not in seen:
+        if at is above:
+            return True
+        seen.add(at.name)
+        at = next(iter(robot.parents_of.get(at.parent or "", ())), None)
+    return False
 
 
 def repeated_groups(root: Element, robot: Robot) -> Iterator[tuple[Element, str]]:

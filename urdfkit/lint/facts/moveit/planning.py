@@ -34,6 +34,7 @@ default_planning_response_adapters/AddRuckigTrajectorySmoothing ompl_interface/O
 pilz_industrial_motion_planner/CommandPlanner chomp_interface/CHOMPPlanner
 moveit_simple_controller_manager/MoveItSimpleControllerManager moveit_ros_control_interface/Ros2ControlManager
 moveit_ros_control_interface/Ros2ControlMultiManager moveit_fake_controller_manager/MoveItFakeControllerManager
+occupancy_map_monitor/PointCloudOctomapUpdater occupancy_map_monitor/DepthImageOctomapUpdater
 moveit_ros_control_interface::MoveItControllerManager moveit_ros_control_interface::MoveItMultiControllerManager
 """
 _KEYS = (
@@ -83,6 +84,11 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
 
 def _pipeline(node: Node) -> Defects:
     """Yield the parameters of a planning pipeline of another release, and adapters without timing of trajectories."""
+    default = node.find("default_planner_config")
+    plugins = [text for name in ("planning_plugin", "planning_plugins") for text in _texts(node, name)]
+    if default is not None and plugins == [_PILZ] and default.text not in (*_PILZ_PLANNERS, ""):
+        hint = _hint(default.text, _PILZ_PLANNERS) or f"; write {', '.join(_PILZ_PLANNERS)}"
+        yield default, f"unknown planner `{default.text}` of the Pilz pipeline" + hint
     adapters, responses = node.find("request_adapters"), node.find("response_adapters")
     names = [
         word for value in (adapters, responses) if value is not None for text in value.texts() for word in text.split()
@@ -103,6 +109,15 @@ def _pipeline(node: Node) -> Defects:
     key = next((each for each, _ in node.entries if each.text == name), None)
     if key is not None and is_untimed(planners, names):
         yield key, f"`{name}` {WITHOUT_TIMES}"
+
+
+_PILZ = "pilz_industrial_motion_planner/CommandPlanner"
+_PILZ_PLANNERS = ("PTP", "LIN", "CIRC")
+
+
+def _texts(node: Node, name: str) -> list[str]:
+    value = node.find(name)
+    return value.texts() if value is not None else []
 
 
 WITHOUT_TIMES = "has no time parameterization; without `AddTimeOptimalParameterization`, trajectories have no times"

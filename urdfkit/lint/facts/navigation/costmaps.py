@@ -90,8 +90,9 @@ def costmap_defects(model: Model) -> Defects:
         ):
             yield source, fixed, "`global_frame` is `odom`, but the static layer has a map in the frame `map`"
         yield from _footprint(each)
-        yield from _window(each)
-        yield from _inflation(each, every)
+        shape = _shape(each, every)
+        yield from _window(each, shape)
+        yield from _inflation(each, shape)
         yield from _two_shapes(each)
     yield from _late(model, every)
 
@@ -130,6 +131,14 @@ def footprint_of(group: Node) -> tuple[Node, Points] | None:
     return (node, points) if len(points) > 2 else None
 
 
+def vertices_of(group: Node) -> tuple[Node, Points] | None:
+    """Return the vertices of a polygon of teb_local_planner with their coordinates [m]; None without them."""
+    node, kind = group.find("vertices"), group.find("type")
+    if node is None or kind is None or kind.text != "polygon":
+        return None
+    return footprint_of(Node("group", "", ((Node("text", "footprint", (), (), 0, 0), node),), (), 0, 0))
+
+
 def inscribed_radius(points: Points) -> float:
     """Return the smallest distance of the sides of a polygon from the origin [m]; 0 if the origin is outside."""
     inside, distance = False, float("inf")
@@ -156,10 +165,27 @@ def _footprint(each: Costmap) -> Defects:
         yield each.source, node, "`footprint` does not contain the origin of the robot; check the signs"
 
 
-def _window(each: Costmap) -> Defects:
-    """Yield the width or height of a rolling window that does not contain the footprint."""
-    found, rolls = footprint_of(each.group), each.group.find("rolling_window")
-    if found is None or rolls is None or rolls.text in _FALSE:
+def _shape(each: Costmap, every: list[Costmap]) -> Costmap | None:
+    """Return the costmap with the footprint or radius of a costmap, perhaps in another file of a ROS 1 package."""
+    shaped = [each]
+    if PARAMETERS not in each.source.text:
+        package = package_of(Path(each.source.file))
+        shaped += [other for other in every if package_of(Path(other.source.file)) == package]
+    names = ("footprint", "robot_radius")
+    return next((one for one in shaped if any(one.group.find(name) is not None for name in names)), None)
+
+
+def _window(each: Costmap, shape: Costmap | None) -> Defects:
+    """Yield the width or height of a rolling window that does not contain the footprint, and cells as wide as it."""
+    found, rolls = footprint_of(shape.group) if shape is not None else None, each.group.find("rolling_window")
+    if found is None:
+        return
+    cell, inner = each.group.find("resolution"), inscribed_radius(found[1])
+    step = number_of(cell)
+    if cell is not None and step is not None and 0.0 < inner < step:
+        message = f"`resolution` is {step:g} m, more than the inscribed radius of the robot, {inner:.3g} m"
+        yield each.source, cell, message
+    if rolls is None or rolls.text in _FALSE:
         return
     reach = max(hypot(x, y) for x, y in found[1])
     for name in ("width", "height"):
@@ -205,16 +231,8 @@ def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float
     return side(a, b, c) * side(a, b, d) < 0.0 and side(c, d, a) * side(c, d, b) < 0.0
 
 
-def _inflation(each: Costmap, every: list[Costmap]) -> Defects:
-    """Yield an inflation that ends inside of the robot; the footprint may be in another file of a ROS 1 package."""
-    shaped = [each]
-    if PARAMETERS not in each.source.text:
-        package = package_of(Path(each.source.file))
-        shaped += [other for other in every if package_of(Path(other.source.file)) == package]
-    is_shaped = (
-        one.group.find("footprint") is not None or one.group.find("robot_radius") is not None for one in shaped
-    )
-    shape = next((one for one, has in zip(shaped, is_shaped, strict=True) if has), None)
+def _inflation(each: Costmap, shape: Costmap | None) -> Defects:
+    """Yield an inflation that ends inside of the robot."""
     if shape is None:
         return
     corners, radius = footprint_of(shape.group), number_of(shape.group.find("robot_radius"))

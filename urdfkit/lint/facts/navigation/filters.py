@@ -205,7 +205,8 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
         if topic.text and other != name:
             yield each.source, topic, f"`{name}` and `{other}` are both the topic `{topic.text}`"
         both = [at for at in (0, 1) if values[at] in _TRUE and values[at + _AXES.index("vx")] in _TRUE]
-        if kind == "odom" and topic.text.strip("/") in relative and len(both) > 1:
+        is_second = each.is_global and name in absolute and len(absolute) > 1
+        if kind == "odom" and topic.text.strip("/") in relative and len(both) > 1 and not is_second:
             message = f"`{name}_config` fuses positions and velocities of the same odometry; fuse the velocities only"
             yield each.source, config.items[0], message
             continue
@@ -217,7 +218,7 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
                 config.items[wrong[0]],
                 f"`{name}_config` fuses {', '.join(fused)}, which its messages do not contain",
             )
-        if each.is_global and name in absolute and len(absolute) > 1 and topic.text.strip("/") in relative:
+        if is_second and topic.text.strip("/") in relative:
             message = (
                 f"`{name}_config` fuses x and y of drifting odometry in addition to `{{}}`; fuse its velocities instead"
             )

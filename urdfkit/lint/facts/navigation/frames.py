@@ -1,5 +1,6 @@
 """Frames of navigation: names that only one node uses, and links that would have two parents."""
 
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
@@ -33,7 +34,8 @@ def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
         for names in _PAIRS if node.entries else ():
             first, second = (node.find(name) for name in names)
             if first is not None and second is not None and first.text and first.text == second.text:
-                yield second, f"`{names[0]}` and `{names[1]}` are both `{first.text}`"
+                wrong = first if second.text == "odom" and names[0] in ("map_frame", "global_frame_id") else second
+                yield wrong, f"`{names[0]}` and `{names[1]}` are both `{first.text}`"
 
 
 def frames_with_slash(source: Source) -> Iterator[tuple[Node, str]]:
@@ -74,9 +76,16 @@ def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
             yield source, value, f"`{key.text}` is `{frame}`, which is a topic and not a frame"
         if not others or "$" in frame or is_reported or frame in ("map", "odom") or frame in model.robot.link_by_name:
             continue
-        if frame.isidentifier() and words.occurs_once(frame):
+        if frame.isidentifier() and (words.occurs_once(frame) or _is_only_frame(model, words, frame)):
             shown = " or ".join(f"`{name}`" for name in others[:3])
             yield source, value, f"no other file names the frame `{frame}` of `{key.text}`; other nodes use {shown}"
+
+
+def _is_only_frame(model: Model, words: Words, frame: str) -> bool:
+    """Return whether a name is a whole value in one place, and elsewhere only a part of topics and paths."""
+    pattern = rf"(?<![\w/.~-]){re.escape(frame)}(?![\w/.-])"
+    texts = (source.text for source in {**model.expanded.sources, **model.related_files}.values())
+    return sum(len(re.findall(pattern, text)) for text in texts) == 1 and not words.match(pattern)
 
 
 def second_parents(model: Model) -> Iterator[tuple[Source, Node, str]]:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
+from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, number_of, walk
 from urdfkit.lint.facts.navigation.sections import sections
@@ -153,8 +154,25 @@ def _swapped_frames(group: Node) -> Defects:
         yield odom[0], "the odometry frame is `map` and the map frame is `odom`; swap them"
 
 
+def _unequal_stamps(groups: dict[str, Node]) -> Defects:
+    """Yield the only flag for stamped velocities that differs from those of the other nodes of a file."""
+    flags = [flag for group in groups.values() if (flag := group.find("enable_stamped_cmd_vel")) is not None]
+    for flag in flags if len(flags) > 2 else ():
+        others = {each.text for each in flags if each is not flag}
+        if len(others) == 1 and flag.text not in others and "$" not in flag.text:
+            yield flag, f"`enable_stamped_cmd_vel` is {flag.text}, but {others.pop()} for the other nodes of this file"
+
+
 def _between_nodes(groups: dict[str, Node]) -> Defects:
     """Yield a local costmap in another frame than the behaviors."""
+    yield from _unequal_stamps(groups)
+    docking = groups.get("docking_server")
+    kinds = docking.find("dock_plugins") if docking is not None else None
+    for _, dock in docking.entries if docking is not None and kinds is not None else ():
+        kind = dock.find("type")
+        if kind is not None and dock.find("pose") is not None and kind.text not in kinds.texts() and kinds.texts():
+            hint = Suggestion(nearest(kind.text, kinds.texts()), kind.text)
+            yield kind, f"`dock_plugins` has no `{kind.text}`" + hint
     local, behaviors = groups.get("local_costmap"), groups.get("behavior_server")
     frame = local.find("global_frame") if local is not None else None
     expected = behaviors.find("local_frame") if behaviors is not None else None

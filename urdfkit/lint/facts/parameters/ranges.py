@@ -45,7 +45,7 @@ obstacle_range raytrace_range obstacle_max_range raytrace_max_range||0.05 500 m
 max_laser_range laser_max_range maxRange maxUrange||0.1 500 m
 max_obstacle_height||0.01 200 m
 z_voxels|z_resolution,origin_z,observation_sources|1 16
-footprint_padding||0.0001 2 m
+footprint_padding||0.0001 0.5 m
 particles|maxUrange,maxRange|2 5000
 min_particles max_particles||5 200000
 xy_goal_tolerance||0.001 5 m

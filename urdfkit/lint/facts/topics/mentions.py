@@ -11,7 +11,7 @@ from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.control.yaml_tree import nodes, start_of
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, start_of
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.topics.graph import remapped, remaps_groups
@@ -96,11 +96,21 @@ def mentions(model: Model) -> Iterator[Mention]:
                     if is_topic and value.kind == "text" and re.fullmatch(r"[\w/]+", value.text):
                         reads = key.text == "scan_topic" or group.find("data_type") is not None
                         is_input = key.text[-1].isdigit()
-                        named = group.find("data_type")
-                        type = _TYPES.get(key.text.rstrip("0123456789"), named.text if named is not None else "")
+                        named = group.find("data_type") or _source_type(group)
+                        written = _SOURCES.get(named.text, named.text) if named is not None else ""
+                        type = _TYPES.get(key.text.rstrip("0123456789"), written)
                         at = Named(named.text, start_of(source, named)) if named is not None else None
                         topic = Named(value.text, start_of(source, value))
                         yield Mention(source, topic, reads, is_input, type, typed=at)
+
+
+_SOURCES = {"scan": "LaserScan", "pointcloud": "PointCloud2"}
+"""Type of a source of nav2_collision_monitor → the type of its messages."""
+
+
+def _source_type(group: Node) -> Node | None:
+    kind = group.find("type")
+    return kind if kind is not None and kind.text in _SOURCES and group.find("min_height") is not None else None
 
 
 def topics_of_receivers(model: Model) -> Iterator[Mention]:

@@ -49,7 +49,7 @@ class SrdfDuplicate(RobotRule):
             yield from self._repeated(root.children, model, severity)
             for part in root.children:
                 if part.tag in ("group", "group_state"):
-                    yield from self._repeated(part.children, model, severity, of=f" in `{part.get('name')}`")
+                    yield from self._repeated(part.children, model, severity, of=part.get("name") or "")
             file = root.origin.position.file
             folder = file.rpartition("/")[0]
             other = folders.setdefault(folder, file)
@@ -85,6 +85,7 @@ class SrdfDuplicate(RobotRule):
                 )
                 yield self.at(model, element, message, attribute="child_link", link=child, severity=severity)
             if before is not element:
-                message = f"duplicate {shown}{of}; the first is at {model.shown(before.origin.position)}"
-                names = (str(element.get("name")),) if element.tag == "group" and not of else ()
+                where = f" in `{of}`" if of else ""
+                message = f"duplicate {shown}{where}; the first is at {model.shown(before.origin.position)}"
+                names = (of,) if of else (str(element.get("name")),) if element.tag == "group" else ()
                 yield self.at(model, element, message, severity="note" if is_pair else severity, names=names)

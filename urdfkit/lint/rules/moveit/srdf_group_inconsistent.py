@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -109,8 +110,16 @@ class SrdfGroupInconsistent(RobotRule):
     def _frame(self, joint: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for a virtual joint that begins in the robot, or that is fixed although the robot drives."""
         from urdfkit.lint.facts.gazebo.rolling_wheels import pairs_of_wheels
+        from urdfkit.lint.facts.ros_packages import is_slip
 
-        name, frame = joint.get("name"), joint.get("parent_frame") or ""
+        name, frame = joint.get("name") or "", joint.get("parent_frame") or ""
+        near = next((each for each in ("odom", "map", "world") if is_slip(frame, each)), None)
+        if near is not None and frame not in ("odom", "map", "world"):
+            message = f"unknown parent frame `{frame}` of virtual joint `{name}`" + Suggestion(near, frame)
+            yield self.at(model, joint, message, attribute="parent_frame", severity=severity)
+        if name in model.robot.joint_by_name:
+            message = f"virtual joint `{name}` has the name of a joint of the robot"
+            yield self.at(model, joint, message, attribute="name", joint=name, severity=severity)
         if frame in model.robot.link_by_name:
             message = f"parent frame `{frame}` of virtual joint `{name}` is a link of the robot"
             help = "write a frame outside of the robot, such as `world`"

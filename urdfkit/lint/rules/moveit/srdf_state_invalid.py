@@ -118,7 +118,8 @@ class SrdfStateInvalid(RobotRule):
                 if len(missing) > len(foreign):  # otherwise the foreign joints stand for the missing ones
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
                     message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"
-                    yield self.at(model, state, message, joint=missing[0], severity=severity)
+                    named = (state.get("name") or "",)
+                    yield self.at(model, state, message, joint=missing[0], severity=severity, names=named)
 
     def _mimics(self, state: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for each value of a mimic joint that contradicts the value of the joint it follows."""

@@ -16,6 +16,9 @@ _TOO_LARGE = 2.5
 _UNCOVERED = 0.25
 """Largest accepted ratio of the uncovered length at one end of a footprint to the length of the base."""
 
+_UNCOVERED_TWICE = 0.075
+"""Accepted ratio of the uncovered length at each of both ends of a footprint to the length of the base."""
+
 _ENDS = (("front", 0, 1.0), ("rear", 0, -1.0), ("left side", 1, 1.0), ("right side", 1, -1.0))
 
 
@@ -42,7 +45,8 @@ class CostmapContradictsRobot(RobotRule):
 
     - a radius below 60 % of half the width of the robot
     - a radius, or a corner of a footprint, of more than 2.5 times the distance of the farthest corner of the robot
-    - a footprint that leaves more than a quarter of the length or width of the robot uncovered at one end
+    - a footprint that leaves more than a quarter of the length or width of the robot uncovered at one end, or 7.5 % at
+      both ends
 
     Robots with meshes that are not found are not checked.
 
@@ -70,12 +74,12 @@ class CostmapContradictsRobot(RobotRule):
         """Yield a finding for each radius that does not suit the robot."""
         from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
         from urdfkit.lint.facts.control.yaml_tree import nodes, number_of, span_of, yamls
-        from urdfkit.lint.facts.navigation.costmaps import footprint_of, inscribed_radius
+        from urdfkit.lint.facts.navigation.costmaps import footprint_of, inscribed_radius, vertices_of
         from urdfkit.lint.facts.navigation.sensor_contradictions import sensor_contradictions
 
         for source, node, message in sensor_contradictions(model):
             yield self.at_span(span_of(source, node), message)
-        sources = [source for source in yamls(model) if re.search(r"robot_radius|footprint", source.text)]
+        sources = [source for source in yamls(model) if re.search(r"robot_radius|footprint|vertices", source.text)]
         size = _size(model) if sources and not has_other_wheels(model) else None
         if size is None:
             return
@@ -89,6 +93,8 @@ class CostmapContradictsRobot(RobotRule):
                     is_right = _TOO_SMALL * size.half <= radius <= _TOO_LARGE * size.reach
                     shown = f"extends {size.half:.3g} to {size.reach:.3g} m from its centre"
                     message = "" if is_right else f"`robot_radius` is {radius:g} m, but the robot {shown}"
+                elif (band := node.find("footprint_model")) is not None and (points := vertices_of(band)) is not None:
+                    value, message = points[0], _footprint_message(points[1], size).replace("footprint", "vertices")
                 else:
                     continue
                 if value is not None and message:
@@ -102,6 +108,15 @@ def _footprint_message(polygon: list[tuple[float, float]], size: _Size) -> str:
         return (
             f"a corner of `footprint` is {outer:.3g} m from the centre, but the robot extends only {size.reach:.3g} m"
         )
+    for axis, what in enumerate(("length", "width")):
+        gaps = [
+            (size.high[axis] if sign > 0.0 else -size.low[axis]) - max(sign * corner[axis] for corner in polygon)
+            for sign in (1.0, -1.0)
+        ]
+        whole = size.high[axis] - size.low[axis]
+        if min(gaps) > _UNCOVERED_TWICE * whole:
+            own = whole - sum(gaps)
+            return f"the {what} of `footprint` is {own:.3g} m, but that of the robot is {whole:.3g} m"
     for end, axis, sign in _ENDS:
         own = max(sign * corner[axis] for corner in polygon)
         robot = size.high[axis] if sign > 0.0 else -size.low[axis]
