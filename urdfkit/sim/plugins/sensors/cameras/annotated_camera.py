@@ -106,10 +106,6 @@ class GzSegmentationCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._colored, self._labels
 
-    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
-        """Return the functions that build the messages of the other topics."""
-        return (self.info,)
-
     def _colored(self, sight: Sight) -> Any:
         labels, numbers = instances(sight)
         return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._by_instance else labels), "rgb8")
@@ -162,10 +158,6 @@ class GzBoundingBoxCamera(Camera):
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._detections, self._drawn
-
-    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
-        """Return the functions that build the messages of the other topics."""
-        return (self.info,)
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Boxed:
         sight = super()._look(t, layout, frame, random)

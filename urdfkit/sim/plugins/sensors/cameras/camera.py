@@ -149,8 +149,13 @@ class Camera(SceneSensor):
         renderer = self._surroundings.view(layout).renderer(layout)
         return self.imagers[0].look(t, renderer, frame, random, deep=self.deep)
 
-    def _image(self, sight: Sight) -> Any:
+    def message(self, sight: Sight) -> Any:
+        """Return the image of the first camera."""
         return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
+
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
+        """Return the functions that build the messages of the other topics; by default `info`."""
+        return (self.info,)
 
     def info(self, t: float) -> Any:
         """Return the CameraInfo of the first camera."""
@@ -174,14 +179,6 @@ class GzCamera(Camera):
         written = self.optics.element.find("camera_info_topic")
         info = written.text if written is not None and written.text else f"{picture.rpartition('/')[0]}/camera_info"
         self.topics = (setup.bus.advertise(picture, IMAGE), setup.bus.advertise(topics.resolve(info), CAMERA_INFO))
-
-    def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return the functions that build the messages of the first topics in `topics`."""
-        return (self._image,)
-
-    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
-        """Return the functions that build the messages of the other topics."""
-        return (self.info,)
 
 
 def sensor_type(setup: Setup) -> str:

@@ -37,7 +37,7 @@ class DepthCamera(Camera):
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the messages of the first topics in `topics`."""
-        return self._image, self._depth, self._points
+        return self.message, self._depth, self._points
 
     def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
@@ -76,10 +76,6 @@ class GzDepthCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._depth, self._points
 
-    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
-        """Return the functions that build the messages of the other topics."""
-        return (self.info,)
-
     def _depth(self, sight: Sight) -> Any:
         return depth_image(sight.t, self.frame, sight.picture.depth)
 
@@ -104,4 +100,4 @@ class GzRgbdCamera(GzDepthCamera):
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the messages of the first topics in `topics`."""
-        return self._image, self._depth, self._points
+        return self.message, self._depth, self._points

@@ -50,7 +50,7 @@ class RosCamera(MultiCamera):
         """Return the functions that build the messages of the first topics in `topics`."""
         if self._several:
             return super().messages()
-        return (self._image, self._depth, self._points) if self.deep else (self._image,)
+        return (self.message, self._depth, self._points) if self.deep else (self.message,)
 
     def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
