@@ -86,4 +86,4 @@ def test_cameras_that_are_neither_left_nor_right_are_refused_by_name(post) -> No
     notes: list[str] = []
     post(sensor(ros1(), inside=pair("a", "b"), type="multicamera"), room=POST, note=notes.append)
     (note,) = [each for each in notes if "is ignored" in each]
-    assert "recognizes cameras by `left` and `right` in their names; this one has `a`, `b`" in note
+    assert "recognizes cameras by `left` and `right` in their names; this sensor has `a`, `b`" in note
