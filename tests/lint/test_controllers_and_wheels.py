@@ -201,3 +201,28 @@ def test_robots_of_a_family_have_their_own_parameters(loaded, files, write, monk
         write(f"cart/config/{name}.yaml", f"drive:\n  ros__parameters:\n{settings}".encode())
     monkeypatch.chdir(tmp_path / "cart")
     assert {finding.file for finding in lint(".", select=("K970",))} == files
+
+
+@pytest.mark.parametrize("name", ["wheel_separation", "wheel_radius"])
+def test_two_files_that_contradict_one_property_are_one_finding_there(name: str, write) -> None:
+    write("cart/package.xml", MANIFEST)
+    wheels = [
+        WHEEL.format(name=side, xyz=f"0 ${{{sign}track/2}} 0", axis="0 1 0").replace('"0.1"', '"${radius}"')
+        for side, sign in (("left", ""), ("right", "-"))
+    ]
+    properties = '<xacro:property name="track" value="0.5"/>\n<xacro:property name="radius" value="0.125"/>\n'
+    head = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="cart">\n'
+    model = write(
+        "cart/urdf/cart.urdf.xacro", (head + properties + '<link name="base"/>' + "".join(wheels) + "</robot>").encode()
+    )
+    values = {"wheel_separation": 0.5, "wheel_radius": 0.125} | {name: 0.2}
+    lines = [f"    {key}: {value}\n" for key, value in values.items()]
+    lines += [f"    {side}_wheel_names: [{side}_joint]\n" for side in ("left", "right")]
+    text = "drive:\n  ros__parameters:\n    type: diff_drive_controller/DiffDriveController\n" + "".join(lines)
+    write("cart/config/drive.yaml", text.encode())
+    [alone] = lint(model, select=("K970",))
+    assert alone.file.endswith("drive.yaml")
+    write("cart/config/robot.yaml", text.encode())
+    [both] = lint(model, select=("K970",))
+    assert (both.file.endswith("cart.urdf.xacro"), both.line) == (True, 2 if name == "wheel_separation" else 3)
+    assert len(both.related) == 2

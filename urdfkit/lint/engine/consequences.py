@@ -126,6 +126,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("J427", ""), "name", ("S915", "")),
     (("J416", ""), "line", ("N304", "")),
     (("K963", ""), "name", ("K971", "incomplete")),
+    (("K970", ""), "robot", ("K979", "")),
     (("K973", "missing"), "line", ("K973", "folder")),
     (("K973", "name"), "name", ("K956", "")),
     (("K971", "twice"), "name", ("K962", "")),

@@ -163,6 +163,23 @@ def written_at(model: Model, element: Element | None, attribute: str) -> Span | 
     return model.span(*place)
 
 
+def property_of_length(model: Model, length: float) -> Span | None:
+    """Return the value of the only used property that is a length, or half or twice of it; None if it is ambiguous."""
+    found = []
+    texts = [source.text for source in model.expanded.sources.values()]
+    for name, position in model.expanded.properties.items():
+        value, place, _ = value_of(model, name, ())
+        size = number(value.strip()) if place is not None else None
+        is_length = size is not None and any(abs(size - factor * length) < _EQUAL for factor in (0.5, 1.0, 2.0))
+        if is_length and any(name in _names(inside) for text in texts for inside in re.findall(_EXPRESSION, text)):
+            found.append(model.span(position, "value"))
+    return found[0] if len(found) == 1 else None
+
+
+_EQUAL = 1e-6
+"""Lengths that differ by less are equal [m]."""
+
+
 def parent_at(model: Model, joint: Joint | None) -> Span | None:
     """Return the place where the parent of a joint is written."""
     return written_at(model, joint.element.find("parent"), "link") if joint is not None else None

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Cylinder, Sphere
-from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings
 from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.finding import Finding
@@ -90,6 +90,7 @@ class ControllerContradictsWheels(RobotRule):
     def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_wheels import wheels_of
         from urdfkit.lint.facts.gazebo.drive_wheels import track
+        from urdfkit.lint.facts.root_cause import property_of_length
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
 
         left, right = (wheels_of(controller, model, side) for side in ("left", "right"))
@@ -127,13 +128,15 @@ class ControllerContradictsWheels(RobotRule):
             ):
                 actual, subject = track(first, other, distances[: min(len(first.middles), len(other.middles))])
                 message = f"`wheel_separation` is {value:g} m, but {subject} are {actual:.6g} m apart"
-                yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}")
+                other = property_of_length(model, actual)
+                yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}", other=other)
         radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
         for parameter, value in _positive_number(controller.group, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
                 help, child = f"write {radii[0]:.6g}", str(first.joint.child)
-                yield self._at(source, parameter, message, first.joint.name, help, names=(child,))
+                other = property_of_length(model, radii[0])
+                yield self._at(source, parameter, message, first.joint.name, help, names=(child,), other=other)
 
     def _at(
         self,
@@ -144,11 +147,14 @@ class ControllerContradictsWheels(RobotRule):
         help: str,
         kind: str = "",
         names: tuple[str, ...] = (),
+        other: Span | None = None,
     ) -> Finding:
         from urdfkit.lint.facts.control.yaml_tree import span_of
 
         span = span_of(source, node)
-        return self.at_span(span, message, joint=joint, help=help, kind=kind, names=names)
+        # Several files that contradict one property are different causes.
+        cause = f"{message} in {source.file}" if other is not None else ""
+        return self.at_span(span, message, joint=joint, help=help, kind=kind, names=names, other=other, cause=cause)
 
 
 def _positive_number(group: Node, name: str) -> Iterator[tuple[Node, float]]:
