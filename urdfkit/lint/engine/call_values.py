@@ -1,13 +1,18 @@
 """Findings on a value that a macro only hands on, at the macro call where a person wrote it."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Sequence
 
 from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.source import Expansion, Span
-from urdfkit.lint.facts.values.value_sources import ValueSource, ValueSources
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.facts.values.value_sources import ValueSource, ValueSources
 
 Trail = tuple[Span, ...]
 """Places of a value after its use: the expression that computes it if the use only names it, and the literal."""
@@ -30,6 +35,9 @@ _TEXT = rf"<[\w:.-]+(?:\s[^<>]*)?>(?:[\w~/]+:=)?{_HANDED_ON}</"
 _OF_VALUES = re.compile("C719|G61[149]|I50[14]|I514|I518|J40[5-9]|J41[019]|J42[01235]|J429|S91[46]|Z823")
 """Matches codes of findings on a value that is wrong by itself: its unit, sign or size."""
 
+_MOST = 2000
+"""Length of the content of an element that is searched for expressions [characters]."""
+
 _FACTOR = 4.0
 """A coordinate is the cause of a distance if it is larger than all other coordinates by this factor."""
 
@@ -51,7 +59,7 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
         calls.setdefault((finding.code, finding.span), set())
         if (finding.file, finding.line) not in formulas:  # which the macro itself has wrong
             calls[finding.code, finding.span].update(chain[0] for chain in finding.chains)
-    sources = ValueSources(model)
+    sources: list[ValueSources] = []
     trails = [
         _literal(finding, model, sources)
         or _trail(_written(finding, model) if finding.chains else None)
@@ -91,17 +99,20 @@ def _trail(span: Span | None) -> Trail:
     return () if span is None else (span,)
 
 
-def _literal(finding: Finding, model: Model, sources: ValueSources) -> Trail:
+def _literal(finding: Finding, model: Model, sources: list[ValueSources]) -> Trail:
     """Return the places up to the literal that makes a value wrong; empty if several literals may be the cause."""
     text = _text(finding, model) if _OF_VALUES.fullmatch(finding.code) else ""
     if text and "${" not in text:
-        tag = model.tag(finding.span.start)
-        text = model.document(finding.file).source.text[tag.start : tag.close_end] if tag is not None else ""
+        text += _content(finding, model)
     if "${" not in text or "urdfkit:" in model.document(finding.file).source.text:
         return ()
+    if not sources:
+        from urdfkit.lint.facts.values.value_sources import ValueSources
+
+        sources.append(ValueSources(model))
     trails: list[Trail] = []
     for chain in finding.chains or ((),):
-        found = sources.of_text(text, finding.span, chain)
+        found = sources[0].of_text(text, finding.span, chain)
         cause = _cause(found, text, finding) if found is not None else None
         if cause is None:
             return ()
@@ -200,6 +211,15 @@ def _text(finding: Finding, model: Model) -> str:
         return ""
     source, span = model.document(finding.file).source, finding.span
     return source.text[source.offset(span.line, span.column) : source.offset(span.end_line, span.end_column)]
+
+
+def _content(finding: Finding, model: Model) -> str:
+    """Return the text after a start tag that a finding marks, up to the end tag; without parsing the whole file."""
+    source, span = model.document(finding.file).source, finding.span
+    start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+    name = re.match(r"<([\w:.-]+)[^<>]*(?<!/)>$", source.text[start:end])
+    close = source.text.find(f"</{name[1]}>", end, end + _MOST) if name is not None else -1
+    return source.text[end:close] if close > 0 else ""
 
 
 def _shared(chains: Sequence[tuple[Expansion, ...]]) -> tuple[Expansion, ...]:

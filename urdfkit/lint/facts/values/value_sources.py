@@ -9,7 +9,6 @@ import ast
 import re
 from pathlib import Path
 
-from urdfkit.description.control.parameter_yaml import parse_settings
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.errors import DescriptionError, ResourceError
@@ -264,6 +263,8 @@ class ValueSources:
 
     def _setting(self, path: Path, keys: Keys) -> Settings | None:
         if path not in self._yaml:
+            from urdfkit.description.control.parameter_yaml import parse_settings
+
             try:
                 self._yaml[path] = parse_settings(self._source(path), separator="\0")
             except (DescriptionError, ResourceError):
