@@ -96,3 +96,37 @@ def test_a_mecanum_drive_commands_and_reads_the_velocity_of_its_wheels(tmp_path,
         (tmp_path / name).write_text(text)
     messages = [one.message for one in lint(tmp_path, select=("K965",))]
     assert [interface in message for message in messages] == [True] * bool(interface)
+
+
+def test_a_joint_that_the_hardware_lacks_is_reported_at_the_entry_before_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    robot = ROBOT.replace("</robot>", JOINT.replace("N", "3").replace("M", "2") + "</robot>")
+    settings = "controller_manager:\n  ros__parameters:\n    arm:\n" + KIND
+    settings += SETTINGS.replace("NAME", "arm").replace("JOINT", "j1, j2, j3")
+    for name, text in {"package.xml": MANIFEST, "arm.urdf.xacro": robot, "arm.yaml": settings}.items():
+        (tmp_path / name).write_text(text)
+    (found,) = lint("arm.urdf.xacro", select=("K965",))
+    assert robot.splitlines()[found.line - 1].strip() == '<xacro:driven name="j2"/>'
+    assert [each.file for each in found.related] == ["arm.yaml"]
+
+
+TRANSMISSION = """<transmission name="t{0}"><type>transmission_interface/SimpleTransmission</type><joint name="j{0}">
+  <hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface></joint></transmission>
+"""
+
+
+@pytest.mark.parametrize(("driven", "file"), [((1, 2), "arm.urdf"), ((1,), "arm.yaml")])
+def test_a_joint_without_transmission_is_reported_where_the_robot_has_the_others(driven, file, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    joints = "".join(JOINT.replace("N", str(n)).replace("M", str(n - 1)) for n in (1, 2, 3))
+    plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo>'
+    transmissions = "".join(TRANSMISSION.format(n) for n in driven)
+    kind = "type: position_controllers/JointPositionController"
+    for name, text in {
+        "package.xml": MANIFEST.replace("ament_cmake", "catkin"),
+        "arm.urdf": f'<robot name="arm">\n<link name="l0"/>\n{joints}{plugin}{transmissions}</robot>',
+        "arm.yaml": f"wrist:\n  {kind}\n  joint: j3\n",
+    }.items():
+        (tmp_path / name).write_text(text)
+    (found,) = lint("arm.urdf", select=("K963",), target="ros1")
+    assert found.file == file

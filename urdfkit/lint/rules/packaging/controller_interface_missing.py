@@ -16,6 +16,10 @@ _OF_WHEELS = ("diff_drive_controller", "ackermann_steering_controller", "four_wh
 """Packages whose controllers have no variant for another interface, so that the transmission is wrong."""
 
 
+_FEW = 1
+"""Number of joints with transmissions above which a robot has the transmissions of its joints in its own files."""
+
+
 class ControllerInterfaceMissing(RobotRule):
     """A ROS 1 controller requires an interface that the transmission of its joint does not provide.
 
@@ -77,7 +81,7 @@ class ControllerInterfaceMissing(RobotRule):
                     message = f"{needed}, which has no transmission"
                     span = source.span(controller_type.start, controller_type.end)
                     # Another file may contain the transmissions if the controller has none.
-                    has_others = len(unprovided) < len(joints_of(source, controller_type))
+                    has_others = len(unprovided) < len(joints_of(source, controller_type)) or len(provided) > _FEW
                     severity = self.severity if has_others else "note"
                     found = self.at_span(span, message, severity=severity, joint=unprovided[0])
                     at_joint = model.span(model.robot.joint_by_name[unprovided[0]].element.origin.position)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.ros2_controllers import DeclaredController, Wanted
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -184,4 +184,28 @@ class HardwareInterfaceLacking(RobotRule):
                 help = f'add <{side} name="{first.interface}"/> to the hardware, or change the controller'
                 help = help if near is None else f"write `{near}`"
             span, kind = span_of(source, first.where), "joint" if interfaces is None else side
-            yield self.at_span(span, message, joint=first.joint, help=help, kind=kind, names=joints[1:])
+            other = _entry_before(first.joint, controller, hardware, model) if interfaces is None else None
+            found = self.at_span(span, message, joint=first.joint, help=help, kind=kind, names=joints[1:])
+            yield Finding(**{**found.__dict__, "other": other, "is_other_wrong": other is not None})
+
+
+def _entry_before(
+    joint: str, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]], model: Model
+) -> Span | None:
+    """Return the entry in <ros2_control>, or its macro call, after which most likely the entry of a joint is missing.
+
+    None unless most joints of the controller have entries.
+    """
+    from urdfkit.lint.facts.control.ros2_controllers import wanted
+
+    names = list(dict.fromkeys(each.joint for each in wanted(controller) if each.is_command))
+    written = [name for name in names if name in hardware]
+    if joint not in names or 2 * len(written) <= len(names):
+        return None
+    before = [name for name in names[: names.index(joint)] if name in hardware] or written
+    for block in model.robot.ros2_control:
+        for part in block.element.find_all("joint"):
+            if part.get("name") == before[-1]:
+                calls = part.origin.expansions
+                return model.span(calls[0].position if calls else part.origin.position)
+    return None
