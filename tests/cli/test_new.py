@@ -252,7 +252,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         ),
         (["robot", "scout", "--arm", "8"], "--arm `8` is not available; choose from: none, 3, 4, 5, 6, 7"),
         (["robot", "scout", "--sensor", "lidra"], "--sensor `lidra` is not available; did you mean `lidar`"),
-        (["robot", "scout", "--sensor", "imu", "--sensor", "imu"], "--sensor `imu` is given twice; give each value"),
+        (["robot", "scout", "--sensor", "imu", "--sensor", "imu"], "--sensor `imu` is repeated; write each value"),
         (["robot", "scout", "--sensor", "gps", "--mass", "2"], "too light for these sensors: .* at least 4 kg"),
         (
             ["robot", "scout", "--sensor", "lidar", "--base-length", "0.2"],

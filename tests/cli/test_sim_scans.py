@@ -79,7 +79,7 @@ def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
             "unknown topic /camera1/image_raw; did you mean `/simpleton/cam",
         ),
         (LASER, "/joint_states=x.json", "0", "/joint_states carries sensor_msgs/msg/JointState, not scans; topics"),
-        ("simpleton", "x.json", "0", "select a topic with TOPIC=FILE.json; no topic carries scans"),
+        ("simpleton", "x.json", "0", "select a topic with TOPIC=FILE.json; no topic contains scans"),
     ],
 )
 def test_an_option_that_cannot_be_saved_is_an_error(

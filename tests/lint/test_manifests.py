@@ -74,7 +74,7 @@ def test_a_cycle_of_dependencies_is_reported_once(tmp_path, monkeypatch):
     (found,) = lint(tmp_path)
     cycle = "`a_description` → `b_control` → `c_bringup` → `a_description`"
     assert (found.file, found.code) == ("a_description/package.xml", "K972")
-    assert found.message == f"the packages depend on each other: {cycle}; colcon refuses to build"
+    assert found.message == f"the packages depend on each other: {cycle}; colcon fails"
     for tool in ("catkin", "ament_cmake"):
         text = manifest("b_control", "c_bringup").replace(
             "exec_depend", "test_depend" if "ament" in tool else "exec_depend"

@@ -53,10 +53,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action=argparse.BooleanOptionalAction,
         help="write README, CI, pre-commit and dev container next to the packages (default: for a new or empty folder)",
     )
-    for name in ("maintainer", "email", "license"):
-        parser.add_argument(
-            f"--{name}", help=f"for package.xml{' (default: from git config)' if name != 'license' else ''}"
-        )
+    parser.add_argument("--maintainer", help="maintainer in package.xml (default: from git config)")
+    parser.add_argument("--email", help="e-mail address of the maintainer in package.xml (default: from git config)")
+    parser.add_argument("--license", help="licence in package.xml")
 
 
 def _suggestion(unknown: str) -> str:

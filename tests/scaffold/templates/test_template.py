@@ -187,7 +187,7 @@ def test_lines_come_once_for_each_answer(several, tmp_path, given, text):
     ("given", "message"),
     [
         ({"depth": "2"}, "--depth requires --colour blue"),
-        ({"part": "arm arm"}, "--part `arm` is given twice"),
+        ({"part": "arm arm"}, "--part `arm` is repeated"),
         ({"part": "leg, am"}, "--part `am` is not available; did you mean `arm`"),
         ({"part": "eye", "colour": "blue", "depth": "4"}, "too deep"),
     ],

@@ -86,7 +86,7 @@ def find_topics(
                 raise UsageError(f"{option}: {problem}{hint}")
             return absolute(name)
         if len(candidates) != 1:
-            available = f"topics with {what}: {', '.join(candidates)}" if candidates else f"no topic carries {what}"
+            available = f"topics with {what}: {', '.join(candidates)}" if candidates else f"no topic contains {what}"
             raise UsageError(f"{option}: select a topic with TOPIC=FILE{suffix}; {available}")
         return candidates[0]
 

@@ -47,7 +47,7 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
         kind = full_type_name(arguments.type)
         found = [row.name for row in rows if row.type == kind]
         if not found and not arguments.json:
-            note(f"urdfkit: no topic carries {kind}{did_you_mean(kind, [row.type for row in rows])}")
+            note(f"urdfkit: no topic has the type {kind}{did_you_mean(kind, [row.type for row in rows])}")
             return 1
         print(json.dumps(found) if arguments.json else "\n".join(found))
         return 0 if found else 1

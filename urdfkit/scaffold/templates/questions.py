@@ -150,7 +150,7 @@ class Question:
         answers = [self._choice(answer) for answer in answers if answer != "and"]
         for answer in answers:
             if answers.count(answer) > 1:
-                raise UsageError(f"{self.option} `{answer}` is given twice; give each value once")
+                raise UsageError(f"{self.option} `{answer}` is repeated; write each value once")
         return " ".join(choice for choice in self.choices if choice in answers)
 
     def _flag(self, answer: str) -> str:

@@ -167,7 +167,7 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
     except MemoryError:
         needed = 8e-9 * float(float_starts[-1] + integer_starts[-1])
         raise SimulationError(
-            f"a world of {counts['t']} robots and bodies with {counts['k']} collision shapes takes {needed:.3g} GB of "
+            f"a world of {counts['t']} robots and bodies with {counts['k']} collision shapes needs {needed:.3g} GB of "
             "memory, which is not available; simulate fewer of them"
         ) from None
     integers[: len(sizes)] = sizes

@@ -50,7 +50,7 @@ class InertiaTransposed(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"inertia of link `{link.name}` is impossible; its entries appear to be given {order}",
+                    f"inertia of link `{link.name}` is impossible; its entries appear to be written {order}",
                     link=link.name,
                     help=f"write {', '.join(f'{name}={text}' for name, text in entries.items())}",
                     fix=new_values(model, element, entries, "unsafe", "Reorder the entries"),

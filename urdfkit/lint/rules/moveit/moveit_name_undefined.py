@@ -26,7 +26,7 @@ class MoveitNameUndefined(RobotRule):
     packages have one SRDF.
 
     ## Why is this bad?
-    MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It refuses to execute a
+    MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It does not execute a
     trajectory for joints without a controller.
 
     ## Example

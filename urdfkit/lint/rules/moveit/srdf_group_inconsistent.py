@@ -15,8 +15,8 @@ class SrdfGroupInconsistent(RobotRule):
     Checks that
 
     - the tip of a chain is below its base, and a group does not contain itself
-    - the parent link of an end effector carries the end effector, is in the parent group, and is not in the end
-      effector's own group
+    - the parent link of an end effector is above the end effector in the tree, is in the parent group, and is not in
+      the group of the end effector
     - the parent group of an end effector is not its own group, nor a part of it
     - no other joint mimics a passive joint, and no controller moves it
     - a joint without a group is passive if the robot has another joint with its name on the other side that is

@@ -31,7 +31,7 @@ class HardwareInterfaceLacking(RobotRule):
     and interfaces in ``<ros2_control>`` are reported by other rules.
 
     ## Why is this bad?
-    The controller manager refuses to start the controller: "Not acceptable command interfaces".
+    The controller manager does not start the controller: "Not acceptable command interfaces".
 
     ## Example
     ```diff

@@ -88,7 +88,7 @@ class ManifestInvalid(RobotRule):
                 cycle = cycle_over(files.name, text, folders) if is_ordered and not tag.attributes else []
                 if cycle and files.name == min(cycle):  # each cycle in one package
                     names = " → ".join(f"`{name}`" for name in cycle)
-                    yield self._at(files, tag, f"the packages depend on each other: {names}; colcon refuses to build")
+                    yield self._at(files, tag, f"the packages depend on each other: {names}; colcon fails")
             yield from self._build_tool(files, root)
 
     def _build_tool(self, files: BuildFiles, root: Tag) -> Findings:

@@ -45,7 +45,7 @@ class JointContradictsName(RobotRule):
     Hands, arms, wheels and rotors are not checked, because they may have any direction at zero.
 
     A comment directly before the joint, or before its macro call, may state the direction of positive positions, such
-    as ``positive is up``. A joint that moves the parts that it carries in the opposite direction is reported.
+    as ``positive is up``. A joint is reported if it moves the parts in the opposite direction.
 
     ## Why is this bad?
     The part moves in an unexpected direction: the camera rolls instead of looking to the side, or the lift swings
