@@ -761,6 +761,7 @@ STOPPED = """<launch>
   <include file="$(find cart)/launch/map.launch"><arg name="{argument}" value="$(arg mapping)"/></include>
   <node pkg="cart" type="stop.py" name="stop"><param name="speed" value="{speed}"/>
     <remap from="safe" to="{safe}"/></node>
+  <param name="robot_description" textfile="$(find cart)/cart.urdf"/>
   <node pkg="cart" type="stop.py" name="second"><remap from="command" to="drive_safe"/></node>
   <node pkg="cart" type="stop.py" name="third"><remap from="safe" to="{drive}/cmd_vel"/></node>
   <node pkg="joint_state_publisher" type="joint_state_publisher" name="j">
@@ -790,8 +791,13 @@ VALUES = {
         ("argument", "map", 3, "launch argument `map` is the path of a file, but this include passes `mapping`"),
         ("speed", "0,3", 4, "`speed` is `0,3`, which is not a number"),
         ("safe", "drive_save", 5, "no other file names the topic `drive_save`; did you mean `drive_safe`?"),
-        ("drive", "wheel_controller", 7, "`wheel_controller/cmd_vel`; did you mean `wheels_controller/cmd_vel`?"),
-        ("d", "cart_model", 9, "no other file names `cart_model`, so `joint_state_publisher` is without a description"),
+        ("drive", "wheel_controller", 8, "`wheel_controller/cmd_vel`; did you mean `wheels_controller/cmd_vel`?"),
+        (
+            "d",
+            "cart_model",
+            10,
+            "no other file names `cart_model`, so `joint_state_publisher` is without",
+        ),
     ],
 )
 def test_a_mistake_in_a_ros_1_launch_file_is_reported_at_its_line(tmp_path, part, wrong, line, words):

@@ -185,7 +185,7 @@ def _meant(mention: Mention, topics: RobotTopics, moved: Set[str]) -> str | None
     # launch-name-misspelt reports `joint_states` and `robot_description` in launch files.
     is_launch = mention.source.file.endswith(LAUNCH)
     names = topics.names - {"joint_states", "robot_description"} if is_launch else topics.names
-    names = names | (moved if end in moved else frozenset())
+    names = names | (moved - {"joint_states", "robot_description"} if end in moved else frozenset())
     strong = [each for each in sorted(names) if _is_misspelling(end, each, True)]
     near = strong or [each for each in sorted(COMMON) if _is_misspelling(end, each, False)]
     if len(near) == 1:

@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named, controllers
 from urdfkit.lint.facts.control.controller_settings import settings
@@ -61,6 +62,12 @@ _OF_ROS1 = {
 
 _DESCRIBED = ("joint_state_publisher", "joint_state_publisher_gui", "robot_state_publisher", "controller_manager")
 """Packages whose nodes exchange or read the description of the robot."""
+
+_DESCRIPTION_SET = (
+    r"<param\s+name\s*=\s*[\"']/?robot_description[\"']\s[^<>]*?(?:command|textfile|\$\(command)"
+    r"|[\"']robot_description[\"']\s*:"
+)
+"""Matches a launch file that sets the parameter with the description."""
 
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
 
@@ -122,7 +129,9 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
 
 def _undescribed(node: LaunchedNode, model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the new name of the robot description of a node, if no other file has this name."""
-    for old, new in node.remappings if node.package in _DESCRIBED else ():
+    texts = [source.text for file, source in model.related_files.items() if file.endswith(LAUNCH)]
+    is_set = any(re.search(_DESCRIPTION_SET, text) for text in texts)
+    for old, new in node.remappings if node.package in _DESCRIBED and is_set else ():
         name = new.name.strip("/")
         is_moved = old.name.strip("/") == "robot_description" and re.fullmatch(r"[\w/]+", name) is not None
         if is_moved and not Words(model).names(name, [(node.source.file, new.start)]):

@@ -67,6 +67,7 @@ class LaunchValueInvalid(RobotRule):
         """Yield a finding for each unusable value."""
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
+        from urdfkit.lint.facts.moveit.planning import meant_plugin
         from urdfkit.lint.facts.moveit.plugin_names import wrong_plugins_in_launch
         from urdfkit.lint.facts.parameters.launch_parameters import launch_parameter_defects
         from urdfkit.lint.facts.parameters.loaded_files import (
@@ -107,7 +108,8 @@ class LaunchValueInvalid(RobotRule):
             for attribute, message in found_in_files if version == 1 else ():
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message, severity="warning")
-            for word, message in (*launch_parameter_defects(source), *wrong_plugins_in_launch(source)):
+            plugins = (each for each in wrong_plugins_in_launch(source) if meant_plugin(each[0].name) is None)
+            for word, message in (*launch_parameter_defects(source), *plugins):  # L104 reports misspelt plugins
                 span = source.span(word.start, word.end)
                 yield self.at_span(span, message, severity="warning")
 
