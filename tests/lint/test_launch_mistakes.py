@@ -589,8 +589,10 @@ RIGHT = {
     "driven": "driver",
     "opaque": ", OpaqueFunction(function=more)",
 }
+NO_RETURN = "the function `more` of an OpaqueFunction does not return its actions; write `return` before the list"
+UNDECLARED = "list of arguments `arguments` is not added to the launch description: the arguments are not declared"
 MISTAKES = [
-    ("more", "[Node(package='joy', executable='joy_node')]", 10, "`more` of an OpaqueFunction does not return its"),
+    ("more", "[Node(package='joy', executable='joy_node')]", 10, NO_RETURN),
     ("goal", "active", 18, "`active` never follows the state `configuring`; `inactive` or `unconfigured` follows it"),
     ("goal", "inactiv", 18, "unknown state `inactiv` of a lifecycle node"),
     ("driver", "IfCondition", 19, "this starts a driver of the hardware if `sim` is true; the condition is inverted"),
@@ -608,7 +610,7 @@ MISTAKES = [
         "arguments",
         "",
         14,
-        "list of arguments `arguments` is not added to the launch description: the arguments are not",
+        UNDECLARED,
     ),
     ("driven", "driver()", 31, "`driver` is an action, not a function; write it without parentheses"),
 ]

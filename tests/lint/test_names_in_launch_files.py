@@ -41,10 +41,11 @@ SIMULATED = (
     '<include file="$(find a)/b"/></group><param name="use_sim_time" value="{}"/>'
 )
 MAPPING = '<node pkg="gmapping" type="slam_gmapping" name="m"><param name="base_frame" value="{}"/></node>'
+BOTH = "`respawn` and `required` are both true, which roslaunch refuses; remove one"
 FILTER = '<node pkg="robot_localization" exec="ekf_node" name="ekf"><remap from="{}/></node>'
 CASES = [
     (1, STICK, "10", "0.1", "`deadzone` is 10, more than 1"),
-    (1, '<node pkg="d" type="d" name="d" required="{}" respawn="true"/>', "true", "false", "which roslaunch refuses"),
+    (1, '<node pkg="d" type="d" name="d" required="{}" respawn="true"/>', "true", "false", BOTH),
     (1, CAMERA, 'image_raw" to="~image_raw"', '~image_raw" to="image_raw"', "write `~image_raw` first"),
     (1, SPAWN, "sdf", "urdf", "`robot_description` is a URDF; did you mean `-urdf`?"),
     (1, SIMULATED, "false", "true", "`use_sim_time` is false, but this file starts Gazebo"),
@@ -67,7 +68,7 @@ CASES = [
         "spawner",
         "`spawner.py` in ROS 1; did you mean `spawner`?",
     ),
-    (2, '<arg name="gui" {}="true"/>', "value", "default", "no attribute `value` in ROS 2; did you mean `default`?"),
+    (2, '<arg name="gui" {}="true"/>', "value", "default", "<arg> has no attribute `value` in ROS 2; did you mean"),
     (1, NODELET.format("{}") + MANAGER, "cameras", "manager", "no launch file starts the nodelet manager `cameras`"),
     (1, STATIC, "base_link world", "world base_link", "the virtual joint of the SRDF puts `base_link` below `world`"),
     (
