@@ -198,8 +198,33 @@ def bias_forces(w: KernelWorld, tree: int) -> None:
 
 
 @inlined
+def is_chain(w: KernelWorld, first: int, beyond: int) -> bool:
+    """Return whether every dof of a tree carries the next one: dofs then follow each other without being looked up."""
+    return bool(w.dof_depth[beyond - 1] == beyond - 1 - first)
+
+
+@inlined
+def factor_chain(w: KernelWorld, first: int, beyond: int) -> None:
+    """Do what `factor` does for a tree without branches."""
+    for k in range(beyond - 1, first - 1, -1):
+        row = w.dof_row[k]
+        inverse = 1.0 / w.L[row + k]
+        for i in range(k - 1, first - 1, -1):
+            ki, above = w.L[row + i] * inverse, w.dof_row[i]
+            for j in range(first, i + 1):
+                w.L[above + j] -= ki * w.L[row + j]
+        inverse = math.sqrt(inverse)
+        w.inverse_diagonal[k] = inverse
+        for i in range(first, k):
+            w.L[row + i] *= inverse
+
+
+@inlined
 def factor(w: KernelWorld, first: int, beyond: int) -> None:
     """Factor M = LᵀL of a tree in place, lower triangle; entries between branches are never touched."""
+    if beyond > first and is_chain(w, first, beyond):
+        factor_chain(w, first, beyond)
+        return
     for k in range(beyond - 1, first - 1, -1):
         row = w.dof_row[k]
         inverse = 1.0 / w.L[row + k]
@@ -224,10 +249,15 @@ def factor(w: KernelWorld, first: int, beyond: int) -> None:
 @inlined
 def solve_transposed(w: KernelWorld, first: int, beyond: int, x: Any, start: int) -> None:
     """Turn the entries of x for a tree's dofs, from `start` + the number of its first dof on, into L⁻ᵀ·x."""
+    chain = beyond > first and is_chain(w, first, beyond)
     for i in range(beyond - 1, first - 1, -1):
         xi = x[start + i] * w.inverse_diagonal[i]
         x[start + i] = xi
-        if xi != 0.0:
+        if chain:
+            row = w.dof_row[i]
+            for j in range(first, i):
+                x[start + j] -= w.L[row + j] * xi
+        elif xi != 0.0:
             row = w.dof_row[i]
             j = w.dof_parent[i]
             while j >= 0:
@@ -262,9 +292,15 @@ def solve_transposed_rows(w: KernelWorld, first: int, beyond: int, x: Any, start
 def solve_forward(w: KernelWorld, first: int, beyond: int) -> None:
     """Turn the entries of x for a tree's dofs into L⁻¹·x."""
     x = w.u
+    chain = beyond > first and is_chain(w, first, beyond)
     for i in range(first, beyond):
         row = w.dof_row[i]
         xi = x[i]
+        if chain:
+            for j in range(i - 1, first - 1, -1):
+                xi -= w.L[row + j] * x[j]
+            x[i] = xi * w.inverse_diagonal[i]
+            continue
         j = w.dof_parent[i]
         while j >= 0:
             xi -= w.L[row + j] * x[j]

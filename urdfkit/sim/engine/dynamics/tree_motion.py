@@ -1,8 +1,9 @@
 """Motion of a tree during a step: terms at the start, predicted poses for the contacts, integration."""
 
 from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.dynamics.free_body_terms import free_body_terms
 from urdfkit.sim.engine.dynamics.integration import move
-from urdfkit.sim.engine.dynamics.mass_matrix import place, terms
+from urdfkit.sim.engine.dynamics.mass_matrix import FREE, place, terms
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
 
@@ -10,7 +11,11 @@ from urdfkit.sim.engine.kernel_world import KernelWorld
 def evaluate(w: KernelWorld, tree: int) -> None:
     """Place a tree's bodies where they are, and compute M and bias."""
     place(w, tree, w.s, False)
-    terms(w, tree)
+    body = w.tree_body[tree]
+    if w.tree_body[tree + 1] - body == 1 and w.kind[body] == FREE and w.weightless[body] == 0.0:
+        free_body_terms(w, body)
+    else:
+        terms(w, tree)
 
 
 @compiled
