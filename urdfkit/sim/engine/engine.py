@@ -142,7 +142,7 @@ class Engine(Articulation):
             body.put_back()
         a = self.arrays
         a["memory"][:] = a["effort"][:] = a["tau"][:] = 0.0
-        a["counts"][:] = a["asleep"][:] = a["attempt"][:] = 0
+        a["counts"][:] = a["asleep"][:] = a["attempt"][:] = a["unguessed"][:] = 0
         a["still"][:] = 0.0
         self.evaluate()
 

@@ -152,6 +152,7 @@ def _store(x: Any, at: int, values: VectorOfNumbers) -> None:
 
 REPLACEMENTS: dict[str, Any] = {
     "world": lambda world, _: world,
+    "load4": _load(4),
     "load6": _load(6),
     "load8": _load(8),
     "load16": _load(16),

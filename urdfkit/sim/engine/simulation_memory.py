@@ -95,6 +95,7 @@ INTEGERS = _sizes(
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
     "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
     f"block_after:t,{BLOCK_WORDS} block_near:t odometer:t,{ODOMETER} tree_link:t+1 link_body:l attempt:t,{ATTEMPT}",
+    "unguessed:t,2",
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

@@ -49,14 +49,12 @@ def heights(engine):
 
 
 def cone_excess(engine):
-    """Return by how much impulses leave their cones, over the largest of them."""
+    """Return by how much the impulses of all contacts leave their cones, over the largest of them."""
     a = engine.arrays
-    n = int(a["counts"][FOUND_ROWS])
-    mu, x = a["mu"][:n], a["x"][:n]
-    normals = np.flatnonzero(mu > 0.0)
-    across = np.hypot(x[normals + 1], x[normals + 2])
-    excess = np.maximum(across - mu[normals] * x[normals], -x[normals])
-    return excess.max() / max(x[normals].max(), 1e-12)
+    n = int(a["counts"][FOUND_CONTACTS])
+    first, second, normal = a["contact_impulse"][:n].T
+    excess = np.maximum(np.hypot(first, second) - a["contact_mu"][:n] * normal, -normal)
+    return excess.max() / max(normal.max(), 1e-12)
 
 
 def all_asleep(engine, seconds):

@@ -3,8 +3,11 @@
 The method is that of `augmented_newton`: a round finds the velocities at which all rows exert P(x - D·w), P the
 projection onto the law, and the next round starts from these impulses with a harder penalty D. Because friction grows
 with the normal impulse of the same round, no correction for slip has to settle from round to round, as the convex
-problems of `convex_newton` need it. A step of Newton's method has the matrix of `active_set`, with a softer penalty.
-A few sweeps find most of what rows do before the first round.
+problems of `convex_newton` need it. The matrix of a step of Newton's method is not symmetric for the same reason, see
+`unsymmetric_matrix`. A few sweeps find most of what rows do before the first round.
+
+A round that does not converge is begun again from the nearest one so far with a softer penalty. Where a harder penalty
+gains nothing, rows contradict each other, and penetrations are corrected less.
 """
 
 import math
@@ -13,20 +16,27 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import MORE_ROUNDS, OFF
-from urdfkit.sim.engine.island_solver.block_assembly import assemble
-from urdfkit.sim.engine.island_solver.block_matrix import eliminate, place_rows
-from urdfkit.sim.engine.island_solver.coulomb_direction import follow, substitute_all
+from urdfkit.sim.engine.island_solver.block_matrix import place_rows
+from urdfkit.sim.engine.island_solver.conjugate_gradient import go_further, note
+from urdfkit.sim.engine.island_solver.convex_newton import limit_corrections
 from urdfkit.sim.engine.island_solver.gauss_seidel import prepare, sweep_both_ways
 from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, push_row, row_speeds, take_momentum
+from urdfkit.sim.engine.island_solver.unsymmetric_matrix import (
+    assemble_unsymmetric,
+    factor_unsymmetric,
+    substitute_unsymmetric,
+)
 from urdfkit.sim.engine.kernel_world import KernelWorld
-from urdfkit.sim.engine.simulation_memory import WIDTH
+from urdfkit.sim.engine.simulation_memory import MATRIX, WIDTH
 from urdfkit.sim.engine.solver.augmented_newton import BALANCE, EXACT, GAIN, HARDER, NEAR, SOFTER, SOLVED
 from urdfkit.sim.engine.solver.row_states import AT_HIGH, AT_LOW, HOLDS, SLIDES
 
 SOFT, SOFTEST, HARDEST = 5e-5, 3e-6, 1e-2
 """Penalties over the stiffness of a held row: of the first round, and the bounds of the others."""
 STEPS, TOTAL = 4, 60
-"""Most steps of Newton's method in a round, and of all rounds beyond which no other begins."""
+"""Most steps of Newton's method in a round, and of all rounds beyond which no other begins, unless rounds converge."""
+STUCK = 0.95
+"""Ratio of the change in a round to the change before it, from which on rows contradict each other."""
 LONG = 20
 """Steps after which velocities that only come near the law are accepted: the convex problems come no nearer, in many
 more steps. Most islands take fewer steps."""
@@ -34,7 +44,7 @@ MEMORY = 0.99
 """How much of the last step's impulses is started from."""
 SHORTER = (1.0, 0.3, 0.15, 0.075, 0.0375)
 """Shares of a step that are tried; with the shorter ones of a single robot, some piles need more rounds."""
-SWEEPS = 5
+SWEEPS = 8
 """Pairs of sweeps before the first round."""
 
 
@@ -79,18 +89,18 @@ def set_states(w: KernelWorld, rows: int) -> None:
 
 
 @compiled
-def imbalance(w: KernelWorld, rows: int, n: int, share: float, ahead: int) -> float:
+def imbalance(w: KernelWorld, rows: int, n: int, share: float) -> float:
     """Find what all rows exert at a share of a step, and write Jᵀ·P - M·v into ``block_f``; return its square.
 
-    The speeds of rows along the step are in A from `ahead` on, and M times the step in ``sum_v``.
+    The speeds of rows along the step are in ``velocity``, and M times the step in ``sum_v``.
     """
-    x, speeds, stiffness, exerted, rest, A = w.x, w.y, w.g, w.ahead, w.block_f, w.A
+    x, speeds, stiffness, exerted, rest, along = w.x, w.y, w.g, w.ahead, w.block_f, w.velocity
     for d in range(n):
         rest[d] = w.sum_s[d] + share * w.sum_v[d]
     k = 0
     while k < rows:
         D = stiffness[k]
-        z = x[k] - D * (speeds[k] + share * A[ahead + k])
+        z = x[k] - D * (speeds[k] + share * along[k])
         if w.mu[k] == 0.0:
             exerted[k] = min(w.high[k], max(w.low[k], z))
             if exerted[k] != 0.0:
@@ -99,8 +109,8 @@ def imbalance(w: KernelWorld, rows: int, n: int, share: float, ahead: int) -> fl
             continue
         a = b = 0.0
         if z > 0.0:
-            a = x[k + 1] - D * (speeds[k + 1] + share * A[ahead + k + 1])
-            b = x[k + 2] - D * (speeds[k + 2] + share * A[ahead + k + 2])
+            a = x[k + 1] - D * (speeds[k + 1] + share * along[k + 1])
+            b = x[k + 2] - D * (speeds[k + 2] + share * along[k + 2])
             size, most = math.sqrt(a * a + b * b), w.mu[k] * z
             if size > most:
                 a, b = a * most / size, b * most / size
@@ -117,12 +127,12 @@ def imbalance(w: KernelWorld, rows: int, n: int, share: float, ahead: int) -> fl
 def descend_to_law(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int:
     """Make steps of Newton's method at a penalty; return how many, negative if the momentum is not balanced then."""
     speed, rest, step, inertia = w.block_v, w.block_f, w.slope_s, w.sum_v
-    ahead = 2 * w.sizes[WIDTH]
+    along = w.velocity
     for k in range(rows):
-        w.A[ahead + k] = 0.0
+        along[k] = 0.0
     for d in range(n):
         inertia[d] = 0.0
-    here = imbalance(w, rows, n, 0.0, ahead)
+    here = imbalance(w, rows, n, 0.0)
     for done in range(STEPS + 1):
         largest = off = 0.0
         for k in range(rows):
@@ -136,14 +146,15 @@ def descend_to_law(w: KernelWorld, root: int, rows: int, n: int, balance: float)
         for d in range(n):
             step[d], inertia[d] = rest[d], 0.0
         set_states(w, rows)
-        assemble(w, root, rows, n, False)
-        if not eliminate(w, n) or not substitute_all(w, n, follow(w, rows, n), step):
+        assemble_unsymmetric(w, root, rows, n, w.u_free)
+        if not factor_unsymmetric(w, n):
             return -done - 1
+        substitute_unsymmetric(w, n, step)
         take_momentum(w, root, step, inertia)
-        row_speeds(w, rows, step, w.A, ahead)
+        row_speeds(w, rows, step, along, 0)
         share = 1.0
         for share in SHORTER:
-            now = imbalance(w, rows, n, share, ahead)
+            now = imbalance(w, rows, n, share)
             if now < here * (1.0 - 0.1 * share):
                 break
         here = now
@@ -151,7 +162,7 @@ def descend_to_law(w: KernelWorld, root: int, rows: int, n: int, balance: float)
             speed[d] += share * step[d]
             w.sum_s[d] += share * inertia[d]
         for k in range(rows):
-            w.y[k] += share * w.A[ahead + k]
+            w.y[k] += share * along[k]
     return -STEPS
 
 
@@ -171,7 +182,7 @@ def sweep_first(w: KernelWorld, root: int, rows: int) -> None:
     """Find velocities ``block_v`` and impulses x by sweeps from those of the last step; rows stay as they are."""
     kept, width = w.slope_s, w.sizes[WIDTH]
     for k in range(rows * width):
-        w.columns[k] = w.Y[k]
+        w.B[k] = w.Y[k]
     tree = root
     while tree >= 0:
         for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
@@ -182,8 +193,13 @@ def sweep_first(w: KernelWorld, root: int, rows: int) -> None:
     for k in range(rows):
         w.x[k] = MEMORY * w.before[k]
         push_row(w, k, w.x[k], w.u)
-    for _ in range(SWEEPS):
+    size = 0.0
+    for done in range(SWEEPS):
+        note(w, root, rows)
         sweep_both_ways(w, rows)
+        # The last pair of sweeps leaves impulses that the law allows.
+        if done < SWEEPS - 1:
+            size = go_further(w, root, rows, size)
     tree = root
     while tree >= 0:
         first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
@@ -194,19 +210,26 @@ def sweep_first(w: KernelWorld, root: int, rows: int) -> None:
             w.u[d] = kept[d]
         tree = w.island_next[tree]
     for k in range(rows * width):
-        w.Y[k] = w.columns[k]
+        w.Y[k] = w.B[k]
     place_rows(w, rows)
 
 
 @inlined
 def begin(w: KernelWorld, root: int, rows: int, n: int) -> None:
-    """Compute the speeds of the rows and the momentum at the velocities ``block_v``, and the metric of `imbalance`."""
+    """Compute speeds of rows and momentum at ``block_v``, the metric of `imbalance`, and M's diagonal in ``u_free``."""
     light: Any = w.slope_v
+    inertia: Any = w.u_free
     tree = root
     while tree >= 0:
         first, at = w.tree_dof[tree], w.block_first[w.tree_block[tree]]
         for d in range(first, w.tree_dof[tree + 1]):
             light[at + d - first] = 1.0 / w.M[w.dof_row[d] + d]
+            # The diagonal of M, with what dampers and servos add to it, as its factor L has it.
+            inertia[d] = 1.0 / (w.inverse_diagonal[d] * w.inverse_diagonal[d])
+            e = w.dof_parent[d]
+            while e >= 0:
+                inertia[e] += w.L[w.dof_row[d] + e] * w.L[w.dof_row[d] + e]
+                e = w.dof_parent[e]
         tree = w.island_next[tree]
     for d in range(n):
         w.sum_s[d] = 0.0
@@ -214,6 +237,24 @@ def begin(w: KernelWorld, root: int, rows: int, n: int) -> None:
     row_speeds(w, rows, w.block_v, w.y, 0)
     for k in range(rows):
         w.y[k] += w.slip[k]
+
+
+@inlined
+def keep(w: KernelWorld, rows: int, n: int) -> None:
+    """Keep impulses and velocities in ``columns``."""
+    for k in range(rows):
+        w.columns[k] = w.x[k]
+    for d in range(n):
+        w.columns[rows + d] = w.block_v[d]
+
+
+@inlined
+def restore(w: KernelWorld, rows: int, n: int) -> None:
+    """Take the impulses and velocities that `keep` kept."""
+    for k in range(rows):
+        w.x[k] = w.columns[k]
+    for d in range(n):
+        w.block_v[d] = w.columns[rows + d]
 
 
 @compiled
@@ -224,12 +265,15 @@ def solve_augmented(w: KernelWorld, root: int, rows: int, n: int, tiny: float) -
         How many rounds it took, `MORE_ROUNDS` and one where velocities only come near the law; 0 in vain. The impulses
         ``before`` stay as they are.
     """
+    if rows * w.sizes[WIDTH] > w.sizes[MATRIX]:
+        return 0
     sweep_first(w, root, rows)
     begin(w, root, rows, n)
     hardness, balance, total, rounds, taken = SOFT, BALANCE, 0, 0, -1
-    before = off = math.inf
-    while total < TOTAL:
+    before = off = nearest = last = math.inf
+    while total < TOTAL or (taken >= 0 and nearest <= NEAR and total < 2 * TOTAL):
         set_penalty(w, rows, hardness)
+        used = hardness
         taken = descend_to_law(w, root, rows, n, balance)
         total += max(1, abs(taken))
         rounds += 1
@@ -237,14 +281,28 @@ def solve_augmented(w: KernelWorld, root: int, rows: int, n: int, tiny: float) -
         if taken >= 0 and (off <= max(tiny, SOLVED) or GAIN * before < off <= NEAR):
             if balance == EXACT:
                 return rounds
-            balance = EXACT
-        elif total > LONG and taken >= 0 and GAIN * before < off <= OFF:
-            break
+            balance, off = EXACT, math.inf
+        elif taken >= 0 and off <= OFF and total > LONG and off > GAIN * before:
+            return MORE_ROUNDS + 1
         elif taken < 0:
+            if nearest <= OFF and total > LONG:
+                break
             hardness = max(SOFTEST, SOFTER * hardness)
-        elif hardness == HARDEST and off > max(NEAR, GAIN * before):
-            return 0  # rows contradict each other
+            if nearest <= OFF:
+                restore(w, rows, n)
+                begin(w, root, rows, n)
+                off = nearest
+        elif hardness >= last and off > max(NEAR, (GAIN if hardness == HARDEST else STUCK) * before):
+            # Rows contradict each other: what could not be corrected of penetrations is left.
+            limit_corrections(w, rows)
+            begin(w, root, rows, n)
         else:
             hardness = min(HARDEST, HARDER * hardness)
-        before = off
-    return MORE_ROUNDS + 1 if taken >= 0 and off <= OFF else 0
+        if taken >= 0 and off < nearest:
+            nearest = off
+            keep(w, rows, n)
+        before, last = off, used if taken >= 0 else math.inf
+    if nearest > OFF:
+        return 0
+    restore(w, rows, n)
+    return MORE_ROUNDS + 1

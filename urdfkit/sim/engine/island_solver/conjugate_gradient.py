@@ -11,9 +11,9 @@ Source: M. Silcowitz-Hansen, S. Niebe, K. Erleben, The Visual Computer 26 (2010)
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
-KEPT = 12
+KEPT = 15
 """Room in A for a contact: its effective mass matrix, the effective masses of single rows, whether there is such a
-matrix, and the change of the velocities across the normal by an impulse along it."""
+matrix, the change of the velocities across the normal by an impulse along it, and the inverses of these masses."""
 
 
 @compiled

@@ -22,8 +22,9 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT, go_further, note
-from urdfkit.sim.engine.island_solver.jacobian_products import contact_speeds, push_contact, push_row, row_speed
+from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, push_row, row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.math.simd import load4, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
 
 SWEEPS = 60
@@ -59,6 +60,7 @@ def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: flo
     determinant = a * aa + d * (e * f - d * c) + e * (d * f - b * e)
     A[at + 6], A[at + 7] = 1.0 / a, 1.0 / max(b, c) if max(b, c) > 0.0 else 0.0
     A[at + 9], A[at + 10] = d, e
+    A[at + 11], A[at + 12] = a, max(b, c)
     # Where there is no inverse the rows are taken one by one.
     A[at + 8] = 1.0 if determinant > FLAT * a * b * c else 0.0
     if determinant > FLAT * a * b * c:
@@ -75,7 +77,8 @@ def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: flo
 def prepare(w: KernelWorld, rows: int) -> None:
     """Turn rows J into Y = J·L⁻¹, and write the inverse mass of each contact and row in A, `KEPT` for each contact.
 
-    For each row ``at_a``, ``of_a``, ``at_b``, ``of_b`` are where the dofs of its trees start, and how many these are.
+    The three rows of a contact are also in ``columns``, with their entries for a dof next to each other. For each row
+    ``at_a``, ``of_a``, ``at_b``, ``of_b`` are where the dofs of its trees start, and how many these are.
     """
     width = w.sizes[WIDTH]
     for k in range(rows):
@@ -103,6 +106,9 @@ def prepare(w: KernelWorld, rows: int) -> None:
             ss, tt = delassus_entry(w, k + 1, k + 1), delassus_entry(w, k + 2, k + 2)
             ns, nt = delassus_entry(w, k, k + 1), delassus_entry(w, k, k + 2)
             keep_inverse(w.A, at, own, ss, tt, ns, nt, delassus_entry(w, k + 1, k + 2))
+            for d in range(w.of_a[k] + w.of_b[k]):
+                to, of = k * width + 3 * d, k * width + d
+                w.columns[to], w.columns[to + 1], w.columns[to + 2] = w.Y[of], w.Y[of + width], w.Y[of + 2 * width]
             k += 3
             continue
         w.A[at] = 1.0 / own if own > 0.0 else 0.0
@@ -110,16 +116,40 @@ def prepare(w: KernelWorld, rows: int) -> None:
 
 
 @inlined
+def six_columns(Z: Any, at: int, x: Any, first: int) -> Any:
+    """Return the product of a contact's rows, as ``columns`` has them, and six numbers; the fourth is no result."""
+    even = x[first] * load4(Z, at) + x[first + 2] * load4(Z, at + 6) + x[first + 4] * load4(Z, at + 12)
+    odd = x[first + 1] * load4(Z, at + 3) + x[first + 3] * load4(Z, at + 9) + x[first + 5] * load4(Z, at + 15)
+    return even + odd
+
+
+@inlined
+def whitened_speeds(w: KernelWorld, k: int) -> Any:
+    """Return the velocities of a contact's three rows with the impulses so far [m/s]."""
+    Z, u, at, size, more = w.columns, w.u, k * w.sizes[WIDTH], w.of_a[k], w.of_b[k]
+    if size == 6 and more == 6:
+        total = six_columns(Z, at, u, w.at_a[k]) + six_columns(Z, at + 18, u, w.at_b[k])
+    elif size == 6 and more == 0:
+        total = six_columns(Z, at, u, w.at_a[k])
+    else:
+        total = u[w.at_a[k]] * load4(Z, at)
+        for d in range(1, size):
+            total = total + u[w.at_a[k] + d] * load4(Z, at + 3 * d)
+        for d in range(more):
+            total = total + u[w.at_b[k] + d] * load4(Z, at + 3 * (size + d))
+    store(w.pair, 0, total)
+    return w.g[k] + w.pair[0], w.g[k + 1] + w.pair[1], w.g[k + 2] + w.pair[2]
+
+
+@inlined
 def put_right(w: KernelWorld, k: int) -> float:
     """Give a contact the impulse that puts it right where all others stay; return by how much velocities change."""
-    x, g, A = w.x, w.g, w.A
+    x, A = w.x, w.A
     at = KEPT * k // 3
     n, a, b = x[k], x[k + 1], x[k + 2]
-    off, s, t = contact_speeds(w, k, w.u)
-    off += g[k]
+    off, s, t = whitened_speeds(w, k)
     if n == 0.0 and off >= 0.0:
         return 0.0
-    s, t = s + g[k + 1], t + g[k + 2]
     holds = False
     if A[at + 8] > 0.0:
         p = n - A[at] * off - A[at + 3] * s - A[at + 4] * t
@@ -136,10 +166,9 @@ def put_right(w: KernelWorld, k: int) -> float:
             r = b - A[at + 7] * (t + A[at + 10] * (p - n))
             size, most = math.sqrt(q * q + r * r), w.mu[k] * p
             if size > most:
-                q, r = q * most / size, r * most / size
-        moved = abs(p - n) / A[at + 6]
-        if A[at + 7] > 0.0:
-            moved = max(moved, max(abs(q - a), abs(r - b)) / A[at + 7])
+                most /= size
+                q, r = q * most, r * most
+        moved = max(A[at + 11] * abs(p - n), A[at + 12] * max(abs(q - a), abs(r - b)))
     x[k], x[k + 1], x[k + 2] = p, q, r
     push_contact(w, k, p - n, q - a, r - b, w.u)
     return float(moved)

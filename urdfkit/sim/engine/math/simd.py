@@ -1,4 +1,4 @@
-"""SIMD operations on fields: ``load6(x, at)``, ``load8(x, at)``, ``load16(x, at)``, sums, multiples, and ``store``.
+"""SIMD operations on fields: ``load4(x, at)`` and the same for 6, 8 and 16, sums, multiples, and ``store``.
 
 Free bodies have six dofs, and rows are processed sixteen at a time. Each operation compiles to one or two instructions,
 where the compiler would otherwise emit one per number, because it does not vectorise these loops itself.
@@ -26,6 +26,8 @@ def padded(n: int) -> int:
     return (n + LANES - 1) & -LANES
 
 
+load4: Any = deferred("math.simd_types", "load4")
+"""Load four numbers of a field: ``load4(x, at)``."""
 load6: Any = deferred("math.simd_types", "load6")
 """Load six numbers of a field: ``load6(x, at)``."""
 load8: Any = deferred("math.simd_types", "load8")

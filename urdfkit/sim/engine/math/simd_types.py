@@ -28,7 +28,7 @@ class Numbers(types.Type):
         return ir.VectorType(ir.DoubleType(), self.count)
 
 
-SIX, EIGHT, SIXTEEN = Numbers(6), Numbers(STRIP), Numbers(LANES)
+FOUR, SIX, EIGHT, SIXTEEN = Numbers(4), Numbers(6), Numbers(STRIP), Numbers(LANES)
 
 
 @register_model(Numbers)
@@ -109,6 +109,8 @@ def _put(typing: Any, x: Any, at: Any, numbers: Any) -> Any:
     return types.none(x, types.int64, numbers), codegen
 
 
+load4: Any = _reading(FOUR)
+"""Load four numbers of a field: ``load4(x, at)``."""
 load6: Any = _reading(SIX)
 """Load six numbers of a field: ``load6(x, at)``."""
 load8: Any = _reading(EIGHT)
