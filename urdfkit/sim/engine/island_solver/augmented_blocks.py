@@ -293,7 +293,7 @@ def solve_augmented(w: KernelWorld, root: int, rows: int, n: int, tiny: float) -
                 begin(w, root, rows, n)
                 off = nearest
         elif hardness >= last and off > max(NEAR, (GAIN if hardness == HARDEST else STUCK) * before):
-            # Rows contradict each other: what could not be corrected of penetrations is left.
+            # Rows contradict each other: penetrations are corrected less.
             limit_corrections(w, rows)
             begin(w, root, rows, n)
         else:

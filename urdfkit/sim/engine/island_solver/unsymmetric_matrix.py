@@ -1,7 +1,7 @@
 """The matrix M + Jᵀ·W·J of an island where contacts slide, in the blocks of `block_matrix`.
 
-Friction grows with the normal impulse, so that W and the matrix are not symmetric. What stands above the diagonal, and
-the blocks on it, are in B; the blocks below it are in A, transposed. Both are then eliminated by the same operations on
+Friction grows with the normal impulse, so that W and the matrix are not symmetric. The blocks on and above the diagonal
+are in B, the blocks below it in A, transposed. Both are then eliminated by the same operations on
 rows. Where friction jams a body, pivots may be negative: a step of Newton's method only needs the matrix to be regular.
 """
 
@@ -41,7 +41,7 @@ def add_product(K: Any, n: int, i: int, j: int, ni: int, nj: int, Y: Any, at: in
 
 @inlined
 def add_contact(w: KernelWorld, k: int, n: int) -> None:
-    """Add what a contact exerts that holds, or slides along ``near_x``."""
+    """Add the stiffness of a contact that holds, or slides along ``near_x``."""
     width, D = w.sizes[WIDTH], w.g[k]
     slid, slid_too, along, mixed, across = 0.0, 0.0, D, 0.0, D
     if w.state[k] == SLIDES:
@@ -66,7 +66,7 @@ def add_contact(w: KernelWorld, k: int, n: int) -> None:
 
 @inlined
 def add_row(w: KernelWorld, k: int, n: int) -> None:
-    """Add what a row that is no contact's with friction exerts where it holds."""
+    """Add the stiffness of a joint row, or of a contact without friction, that holds."""
     i, j, ni, nj, at = w.at_a[k], w.at_b[k], w.of_a[k], w.of_b[k], k * w.sizes[WIDTH]
     to = at + ni
     add_block(w.B, n, i, i, ni, ni, w.Y, at, at, w.g[k])
@@ -83,7 +83,7 @@ def add_row(w: KernelWorld, k: int, n: int) -> None:
 
 @compiled
 def assemble_unsymmetric(w: KernelWorld, root: int, rows: int, n: int, inertia: Any) -> None:
-    """Write M, and add what rows do to it; the diagonal of M, with dampers, is `inertia`."""
+    """Write M, and add the stiffness of the rows; the diagonal of M, with dampers, is `inertia`."""
     above, below = w.B, w.A
     k = 0
     while w.block_first[k] < n:
@@ -159,7 +159,7 @@ def eliminate_block(w: KernelWorld, k: int, n: int, neighbours: int) -> bool:
         inverse = 1.0 / U[at + d]
         for i in range(d + 1, beyond):
             L[at + i] = U[i * n + d] * inverse
-            # Whole rows are quicker; what is written before the diagonal is never used.
+            # Whole rows are quicker; the entries before the diagonal are never used.
             take(U, i * n + first, L[at + i], U, at + first, beyond - first)
         for each in range(neighbours):
             b = w.block_near[each]
