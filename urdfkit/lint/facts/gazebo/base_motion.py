@@ -93,10 +93,10 @@ def _assumptions(source: Source) -> Iterator[tuple[str, Node, bool, bool]]:
                 yield f"`{name}`", value, speed > 0.0, name == "max_vel_y"
         for name in ("max_velocity", "min_velocity") if node.find("smoothing_frequency") is not None else ():
             value = node.find(name)
-            items = value.items if value is not None and len(value.items) == 3 else ()
-            speed = number_of(items[1]) if items else None
-            if speed is not None:
-                yield f"y of `{name}`", items[1], speed != 0.0, False
+            second = value.items[1] if value is not None and len(value.items) == 3 else None
+            speed = number_of(second)
+            if second is not None and speed is not None:
+                yield f"y of `{name}`", second, speed != 0.0, False
 
 
 def _text(node: Node, name: str) -> str:

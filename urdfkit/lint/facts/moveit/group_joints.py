@@ -57,8 +57,8 @@ def without_chain(source: Source, root: Element, robot: Robot) -> Iterator[tuple
         joints = [joint for joint in joints if joint.is_movable]
         ends = [joint for joint in joints if not any(_is_below(other, joint, robot) for other in joints)]
         if len(ends) > 1:
-            names = " and ".join(f"`{joint.name}`" for joint in sorted(ends, key=lambda each: each.name)[:2])
-            yield entry.name, f"group `{entry.name.text}` is no chain: {names} are on different branches"
+            tips = " and ".join(f"`{joint.name}`" for joint in sorted(ends, key=lambda each: each.name)[:2])
+            yield entry.name, f"group `{entry.name.text}` is no chain: {tips} are on different branches"
 
 
 _FOR_CHAINS = r"KDL|LMA|TRAC_IK|TRACIK"

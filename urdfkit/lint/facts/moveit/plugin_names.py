@@ -96,5 +96,6 @@ def wrong_plugins_in_launch(source: Source) -> Iterator[tuple[Named, str]]:
         if element.tag not in ("param", "arg", "let") or name is None or not re.search(PLUGINS, name.name):
             continue
         for value in (element.attributes.get(key) for key in ("value", "default")):
-            for start, plugin, message in wrong_plugins(value.name, version) if value is not None else ():
-                yield Named(plugin, value.start + start), message
+            if value is not None:
+                for start, plugin, message in wrong_plugins(value.name, version):
+                    yield Named(plugin, value.start + start), message

@@ -168,10 +168,11 @@ def _between_nodes(groups: dict[str, Node]) -> Defects:
     yield from _unequal_stamps(groups)
     docking = groups.get("docking_server")
     kinds = docking.find("dock_plugins") if docking is not None else None
-    for _, dock in docking.entries if docking is not None and kinds is not None else ():
+    names = kinds.texts() if kinds is not None else ()
+    for _, dock in docking.entries if docking is not None and names else ():
         kind = dock.find("type")
-        if kind is not None and dock.find("pose") is not None and kind.text not in kinds.texts() and kinds.texts():
-            hint = Suggestion(nearest(kind.text, kinds.texts()), kind.text)
+        if kind is not None and dock.find("pose") is not None and kind.text not in names:
+            hint = Suggestion(nearest(kind.text, names), kind.text)
             yield kind, f"`dock_plugins` has no `{kind.text}`" + hint
     local, behaviors = groups.get("local_costmap"), groups.get("behavior_server")
     frame = local.find("global_frame") if local is not None else None

@@ -128,15 +128,15 @@ class ControllerContradictsWheels(RobotRule):
             ):
                 actual, subject = track(first, other, distances[: min(len(first.middles), len(other.middles))])
                 message = f"`wheel_separation` is {value:g} m, but {subject} are {actual:.6g} m apart"
-                other = property_of_length(model, actual)
-                yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}", other=other)
+                written = property_of_length(model, actual)
+                yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}", other=written)
         radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
         for parameter, value in _positive_number(controller.group, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
                 help, child = f"write {radii[0]:.6g}", str(first.joint.child)
-                other = property_of_length(model, radii[0])
-                yield self._at(source, parameter, message, first.joint.name, help, names=(child,), other=other)
+                written = property_of_length(model, radii[0])
+                yield self._at(source, parameter, message, first.joint.name, help, names=(child,), other=written)
 
     def _at(
         self,
