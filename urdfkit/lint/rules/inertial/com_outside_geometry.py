@@ -102,7 +102,7 @@ class ComOutsideGeometry(RobotRule):
         same = max(map(abs, centre)) * SAME
         for shape in shapes:
             pairs = list(zip(centre, shape.origin.xyz, strict=True))
-            opposite = [k for k, (a, b) in enumerate(pairs) if abs(a) > MIN_TOLERANCE and abs(a + b) <= same]
+            opposite = [k for k, (a, b) in enumerate(pairs) if abs(a) > MIN_TOLERANCE and abs(a + b) <= SAME * abs(a)]
             if len(opposite) == 1 and sum(abs(a - b) <= same for a, b in pairs) == 2:
                 origin, k = inertial.element.find("origin"), opposite[0]
                 message = f"centre of mass of link `{link.name}` has {'xyz'[k]} = {centre[k]:g} m, "
