@@ -164,6 +164,33 @@ def test_the_parameters_of_a_macro_have_the_values_of_its_own_calls(workspace, d
     assert any(row[0] == "K959" for row in found(workspace)) is is_found
 
 
+PROPERTY = """  <xacro:macro name="limb" params="name">
+    <xacro:property name="{property}" {value}
+    <xacro:segment name="${{joint_name}}_x"/><joint name="${{joint_name}}bo" type="fixed"/>
+  </xacro:macro>
+  <xacro:limb name="front"/>
+"""
+
+
+@pytest.mark.parametrize(
+    ("property", "value", "is_found"),
+    [
+        ("joint_name", 'value="left_${name}"/>', True),
+        ("joint_name", "default='el'/>", False),
+        ("joint_name", 'value="${{1:2}[1]}"/>', False),
+        ("joint_name", "><a/></xacro:property>", False),
+        ("other", 'value="el"/>', False),
+    ],
+)
+def test_a_property_in_a_name_has_its_own_values(workspace, property, value, is_found):
+    (workspace / "arm_description" / "urdf" / "arm.urdf").unlink()
+    robot = CALLS.format(other="el").replace(
+        "  <ros2_control", f"{PROPERTY.format(property=property, value=value)}  <ros2_control"
+    )
+    (workspace / "arm_description" / "urdf" / "arm.urdf.xacro").write_text(robot)
+    assert any(row[0] == "K959" for row in found(workspace)) is is_found
+
+
 def test_the_name_of_the_package_in_its_build_files_makes_no_file(workspace):
     launch = workspace / "arm_description" / "launch.launch"
     launch.write_text('<launch><param textfile="$(find arm_description)/urdf/arm_description.urdf"/></launch>')

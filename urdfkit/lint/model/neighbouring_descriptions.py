@@ -76,7 +76,14 @@ class NeighbouringDescriptions:
             calls.setdefault(called, []).append((macro, text))
         for macro, text in _in_macros(_DEFAULTS, every):
             calls.setdefault(macro, []).append((macro, text))
-        return [_pattern(*name, calls, every) for name in dict.fromkeys(names)]
+        properties: Calls = {}
+        for macro, text in _in_macros(_PROPERTY, every):
+            found = [
+                re.search(rf"\b{key}\s*=\s*(?:\"([^\"]*)\"|'([^']*)')", text) for key in ("name", "(?:value|default)")
+            ]
+            name, value = ((each[1] or each[2] or "") if each is not None else _UNKNOWN for each in found)
+            properties.setdefault(name, []).append((value, macro))
+        return [_pattern(*name, calls, properties) for name in dict.fromkeys(names)]
 
     @cached_property
     def _texts(self) -> dict[str, str]:
@@ -105,15 +112,15 @@ def _in_macros(pattern: str, texts: str) -> list[tuple[str, str]]:
     return found
 
 
-def _pattern(name: str, macro: str, calls: Calls, texts: str, outer: tuple[str, ...] = ()) -> str:
-    """Return the pattern of a name; the arguments of the macro's calls replace its parameters.
+def _pattern(name: str, macro: str, calls: Calls, properties: Calls, outer: tuple[tuple[str, str], ...] = ()) -> str:
+    """Return the pattern of a name; the arguments of the macro's calls replace its parameters, and values properties.
 
     Args:
         name: a name with expressions.
         macro: the macro that the name is in. If its own calls have no value, that of its caller may be visible.
         calls: the calls of macros and the defaults of their parameters.
-        texts: the texts of the descriptions.
-        outer: the parameters whose arguments are being replaced.
+        properties: the values of properties, each with the macro that sets it.
+        outer: the parameters and properties that are being replaced, each after the macro that uses it.
     """
     parts = []
     for part in re.split(r"(\$\([^()]*\)|\$\{[^{}]*\})", name):
@@ -125,12 +132,12 @@ def _pattern(name: str, macro: str, calls: Calls, texts: str, outer: tuple[str, 
         values = _values(word[1], calls.get(macro, ())) if word and is_static else set()
         if word and not values:
             values = _values(word[1], [call for each in calls.values() for call in each])
+        values |= set(properties.get(word[1], ())) if word else set()
         is_written = values and len(values) <= _MAX_VALUES and not any("^" in value for value, _ in values)
-        is_set = word is not None and re.search(rf"property\s+name\s*=\s*[\"']{word[1]}[\"']", texts)
-        if word is None or not is_written or is_set or word[1] in outer or len(outer) >= _MAX_DEPTH:
+        if word is None or not is_written or (macro, word[1]) in outer or len(outer) >= _MAX_DEPTH:
             parts.append(".*")
             continue
-        patterns = sorted({_pattern(*value, calls, texts, (*outer, word[1])) for value in values})
+        patterns = sorted({_pattern(*value, calls, properties, (*outer, (macro, word[1]))) for value in values})
         parts.append(".*" if ".*" in patterns else f"(?:{'|'.join(patterns)})")
     pattern = "".join(parts)
     return ".*" if "\\$" in pattern or len(pattern) > _MAX_LENGTH else pattern
@@ -143,12 +150,19 @@ def _values(name: str, calls: Iterable[tuple[str, str]]) -> set[tuple[str, str]]
 
 
 Calls = dict[str, list[tuple[str, str]]]
-"""Name of a macro → its calls and the defaults of its parameters, each after the macro that it is in."""
+"""Name of a macro → its calls and the defaults of its parameters, each after the macro that it is in.
+
+Name of a property → its values, each before the macro that it is in.
+"""
 
 _MACRO = r"<xacro:macro\b[^<>]*?\bname\s*=\s*[\"']([^\"']*)|</xacro:macro>"
 _CALL = r"<xacro:(?!macro\b|property\b|arg\b|include\b|if\b|unless\b)[^<>]*>"
+_PROPERTY = r"<(?:xacro:)?property\b(?:[^<>\"']|\"[^\"]*\"|'[^']*')*>"
 _DEFAULTS = r"\bparams\s*=\s*(?:\"[^\"]*\"|'[^']*')"
-"""Starts and ends of macros, calls of macros, and the defaults of their parameters."""
+"""Starts and ends of macros, calls of macros, properties, and the defaults of parameters."""
+
+_UNKNOWN = "${}"
+"""Value of a property that is an element."""
 
 _MAX_VALUES = 200
 """Maximum number of values of one parameter."""
