@@ -89,6 +89,14 @@ def test_robots_that_skid_may_have_twice_the_separation(more: int, separation: f
     ] * is_reported
 
 
+@pytest.mark.parametrize(("separation", "is_reported"), [(0.3, True), (0.4, False), (0.27, False), (0.5, True)])
+def test_a_multiplier_for_slip_needs_the_separation_of_the_wheels(separation: float, is_reported: bool, write) -> None:
+    messages = found(write, f"wheel_separation: {separation}; wheel_separation_multiplier: 1.5", more=1)
+    assert [message.partition(",")[0] for message in messages] == [
+        f"`wheel_separation` is {separation} m"
+    ] * is_reported
+
+
 CORNERS = [f"{axle}_{side}" for axle in ("front", "rear") for side in ("left", "right")]
 ROLLER = """<link name="roller"/><joint name="roller_joint" type="continuous"><parent link="front_left"/>
 <child link="roller"/><axis xyz="1 0 0"/></joint>"""

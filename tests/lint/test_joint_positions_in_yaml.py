@@ -38,12 +38,37 @@ CASES = [
 @pytest.mark.parametrize("converts", [False, True])
 @pytest.mark.parametrize(("text", "message"), CASES)
 def test_positions_in_other_units_are_found_unless_code_converts_them(tmp_path: Path, text, message, converts):
+    findings = findings_of(tmp_path, text, "goal = [math.radians(each) for each in home], width / 1000.0\n" * converts)
+    assert findings == ([message] if message and not converts else [])
+
+
+def findings_of(tmp_path: Path, text: str, code: str = "") -> list[str]:
+    """Return the messages about values of a YAML file, next to code."""
     manifest = "<name>arm</name><version>1.0.0</version><buildtool_depend>ament_cmake</buildtool_depend>"
     files = {"package.xml": f'<package format="3">{manifest}</package>', "arm.urdf": ROBOT, "config/arm.yaml": text}
-    if converts:
-        files["arm/mover.py"] = "goal = [math.radians(each) for each in home], width / 1000.0\n"
+    if code:
+        files["arm/mover.py"] = code
     for name, content in files.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(content)
-    findings = [each.message for each in lint(tmp_path) if each.code == "K971"]
-    assert findings == ([message] if message and not converts else [])
+    return [each.message for each in lint(tmp_path) if each.code == "K971"]
+
+
+GRASPING = "hand:\n  type: position_controllers/GripperActionController\n  joint: j_jaw\n"
+GRASPING += "picker:\n  joints: [j1, j2, j3]\n  gripper_action: /hand/gripper_cmd\n  open_width: {}\n"
+OTHER_ORDER = "joint 1 of `joints` is `j1`, but `j3 rad` in the comment on line 2"
+OTHERS = [
+    ("joint: j_jaw\nraised: 0.05\n", "`raised` has 0.05 for joint `j_jaw`, whose limits are 0 to 0.03"),
+    ("joint: j_jaw\nraised: 0.03\nlowered: 0.0\n", ""),
+    ("joint: j_jaw\nmax_position: 0.05\n", ""),
+    (GRASPING.format(25), MILLIMETRES.replace("open_position", "open_width") + "millimetres"),
+    (GRASPING.format(0.06), ""),
+    ("# j3 rad, j2 rad, j1 rad\n".join(("joints: [j1, j2, j3]\n", "home: [0, 0, 0]\n")), OTHER_ORDER),
+    ("# j1 rad, j2 rad, j3 rad\n".join(("joints: [j1, j2, j3]\n", "home: [0, 0, 0]\n")), ""),
+    ("# base, arm, wrist\n".join(("joints: [j1, j2, j3]\n", "home: [0, 0, 0]\n")), ""),
+]
+
+
+@pytest.mark.parametrize(("text", "message"), OTHERS)
+def test_positions_beyond_limits_and_in_the_order_of_other_joints(tmp_path: Path, text, message):
+    assert findings_of(tmp_path, text) == ([message] if message else [])

@@ -185,3 +185,23 @@ def test_python_programs_that_catkin_installs_exist(tmp_path, monkeypatch):
     (tmp_path / "scripts").mkdir()
     (tmp_path / "scripts" / "wave.py").touch()
     assert message not in [each.message for each in lint(tmp_path)]
+
+
+def test_the_old_name_of_a_package_is_reported_where_it_is_written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf").write_text(PLAIN)
+    (tmp_path / "launch").mkdir()
+    launch = tmp_path / "launch" / "sim.launch.xml"
+
+    def found(package: str, declared: str) -> list[tuple[str, int, int, str]]:
+        launch.write_text(f'<launch>\n<node pkg="{package}" exec="parameter_bridge"/></launch>')
+        (tmp_path / "package.xml").write_text(manifest("p", "xacro", declared).replace("<exec", "\n<exec"))
+        found = (each for each in lint(tmp_path) if each.code == "K956")
+        return [(each.file.rpartition("/")[2], each.line, each.span.column, each.message) for each in found]
+
+    missing = "missing dependency on `ros_gz_bridge`"
+    unknown = "unknown package `ros_ign_bridge`; did you mean `ros_gz_bridge`?"
+    assert found("ros_gz_bridge", "ros_ign_bridge") == [("package.xml", 3, 14, missing)]
+    assert found("ros_ign_bridge", "ros_gz_bridge") == [("sim.launch.xml", 2, 12, unknown)]
+    assert found("ros_gz_bridge", "ros_gz_bridge") == []
+    assert found("ros_ign_bridge", "ros_ign_bridge") == []

@@ -71,7 +71,9 @@ FILES = {
     "config/moveit_controllers.yaml": MOVEIT,
     "config/joint_limits.yaml": LIMITS,
     "config/initial_positions.yaml": FIRST,
-    "config/kinematics.yaml": "arm:\n  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin\n",
+    "config/kinematics.yaml": (
+        "arm:\n  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin\n  position_only_ik: true\n"
+    ),
     "config/pilz_planning.yaml": (
         "planning_plugins: [pilz_industrial_motion_planner/CommandPlanner]\ndefault_planner_config: PTP\n"
     ),
@@ -109,6 +111,14 @@ MISTAKES = [
         "M109",
         1,
         "no chain: `left_finger` and `right_finger` are on different branches",
+    ),
+    (
+        "kinematics.yaml",
+        "  position_only_ik: true\n",
+        "",
+        "M109",
+        2,
+        "has 3 joints, too few for the orientation of a pose",
     ),
     ("arm.srdf", '"odom"', '"odomm"', "M105", 15, "unknown parent frame `odomm`"),
     ("arm.srdf", 'joint name="floor"', 'joint name="j1"', "M105", 15, "has the name of a joint of the robot"),

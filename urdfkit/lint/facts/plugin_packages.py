@@ -114,10 +114,16 @@ def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool) -> 
         model: the linted model.
         is_own: whether only the package that uses it can have it.
     """
+    from urdfkit.lint.facts.ros_packages import RENAMED
+
     own, words = package_of(Path(used_in)), {name.partition("_")[0], name.rpartition("_")[2].removesuffix("s")}
     found: list[tuple[bool, int, Source]] = []
+    old = "|".join(old for old, new in RENAMED.items() if new == name)
     for file, source in model.related_files.items():
         if file.endswith("package.xml"):
+            renamed = re.search(rf">\s*({old})\s*<", source.text) if old else None
+            if renamed is not None and Path(file).absolute().parent == own:
+                return source.span(*renamed.span(1))
             needed = dependencies_in(source.text)
             family = [each for each in needed if not words.isdisjoint(re.split("_|s$", each))]
             found.append((Path(file).absolute().parent == own, len(family), source))

@@ -127,6 +127,9 @@ _OF_ONE_PROJECT = r"(?:ament|joint_state|launch|moveit|nav2|ros_gz|ros2|rviz)_"
 _SUCCESSORS = {"rviz": "rviz2", "tf": "tf2_ros"}
 """ROS 1 package → the ROS 2 package with the same executables."""
 
+RENAMED = {"ros_ign_bridge": "ros_gz_bridge", "ros_ign_gazebo": "ros_gz_sim", "ros_ign_image": "ros_gz_image"}
+"""Package of Ignition Gazebo → its name from Humble on; Jazzy has no packages with the old names."""
+
 
 def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | None:
     """Return the package that a name misspells by one letter or two swapped letters; None if it misspells none.
@@ -141,6 +144,8 @@ def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | 
     valid = names() | set(others)
     if version == 2 and name in _SUCCESSORS and name not in others:
         return _SUCCESSORS[name]
+    if version == 2 and RENAMED.get(name, name) in others and name not in others:
+        return RENAMED[name]
     if name in valid or len(name) < 4 or re.fullmatch(r"python3?-\w{1,4}", name):
         return None
     from urdfkit.errors import similar

@@ -61,6 +61,26 @@ def without_chain(source: Source, root: Element, robot: Robot) -> Iterator[tuple
             yield entry.name, f"group `{entry.name.text}` is no chain: {tips} are on different branches"
 
 
+def orientation_out_of_reach(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:
+    """Yield the solvers of arms with too few joints for an orientation, without ``position_only_ik``.
+
+    Source: moveit_kinematics (kdl_kinematics_plugin.cpp), which then solves for all six coordinates of a pose.
+    """
+    for entry in entries(source):
+        solver = entry.settings.find("kinematics_solver") if entry.kind == "group" else None
+        if solver is None or "KDL" not in solver.text or entry.settings.find("position_only_ik") is not None:
+            continue
+        names = joints_of(entry.name.text, root, robot) or ()
+        joints = [robot.joint_by_name[name] for name in names if name in robot.joint_by_name]
+        count = sum(joint.is_movable and joint.mimic is None for joint in joints)
+        if _FEWEST <= count <= _MOST:
+            message = f"group `{entry.name.text}` has {count} joints, too few for the orientation of a pose; "
+            yield solver, message + "add `position_only_ik: true`"
+
+
+_FEWEST, _MOST = 3, 4
+"""Numbers of joints of an arm that reaches places, but few orientations."""
+
 _FOR_CHAINS = r"KDL|LMA|TRAC_IK|TRACIK"
 
 

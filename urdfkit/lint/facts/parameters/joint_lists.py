@@ -2,11 +2,12 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import controllers
+from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
@@ -36,17 +37,47 @@ def list_defects(source: Source, robot: Robot) -> Iterator[tuple[Node, str]]:
         if len(names) < 2 or any(name not in robot.joint_by_name for name in names):
             continue
         lists = [(key, value) for key, value in group.entries if _is_numbers(value) and not _is_other(key.text)]
+        if lists:
+            yield from _other_order(source, joints, names, [value for _, value in lists])
         is_listed = any(len(value.items) == len(names) for _, value in lists)
         for key, value in lists:
             lacking = abs(len(value.items) - len(names))
             if lacking == 0:
-                yield from _beyond(key.text, value, names, robot)
+                yield from _beyond(key.text, value.items, names, robot)
             elif (
                 is_listed
                 and len(names) >= (_FEWEST_OF_POSITIONS if re.search(_POSITION, key.text) else _FEWEST)
                 and lacking <= _MOST_LACKING
             ):
                 yield value, f"`{key.text}` has {len(value.items)} values for {len(names)} joints"
+
+
+def _other_order(
+    source: Source, joints: Node | None, names: list[str], lists: list[Node]
+) -> Iterator[tuple[Node, str]]:
+    """Yield the list of joints whose order differs from that of a comment above or next to one of its lists.
+
+    A comment is compared if it has one phrase for each joint, such as ``# rail m, lift m, yaw rad``.
+    """
+    lines = source.text.splitlines()
+    for value in lists:
+        if joints is None or len(value.items) != len(names):
+            continue
+        for number in (value.line - 1, value.line):
+            _, sign, comment = lines[number - 1].partition("#")
+            phrases = [re.findall(r"[a-z]\w*", phrase.lower()) for phrase in comment.split(",")] if sign else []
+            if len(phrases) != len(names) or not all(phrases):
+                continue
+            parts = [name.lower().split("_") for name in names]
+            fits = [
+                [at for at, words in enumerate(parts) if phrase[0] in (*words, "_".join(words))] for phrase in phrases
+            ]
+            wrong = [at for at, found in enumerate(fits) if len(found) == 1 and found != [at]]
+            if len(wrong) > 1 and {fits[at][0] for at in wrong} == set(wrong):
+                first = wrong[0]
+                message = f"joint {first + 1} of `joints` is `{names[first]}`, but `{' '.join(phrases[first])}` "
+                yield joints.items[first], message + f"in the comment on line {number}"
+                return
 
 
 def _is_numbers(value: Node) -> bool:
@@ -57,27 +88,35 @@ def _is_other(name: str) -> bool:
     return re.search(_NO_POSITIONS, name, re.IGNORECASE) is not None
 
 
-def _beyond(list_name: str, value: Node, names: list[str], robot: Robot) -> Iterator[tuple[Node, str]]:
-    """Yield the values beyond the limits of their joint, unless most of them are, so that they are no positions."""
+def _beyond(
+    list_name: str, values: Sequence[Node], names: list[str], robot: Robot, most: int | None = None
+) -> Iterator[tuple[Node, str]]:
+    """Yield the values beyond the limits of their joint, unless more are than `most`, so that they are no positions.
+
+    By default, fewer than half of the values may be.
+    """
     found = []
-    for item, name in zip(value.items, names, strict=True):
-        joint, number = robot.joint_by_name[name], number_of(item)
-        limit = joint.limit if joint.type in ("revolute", "prismatic") else None
+    for item, name in zip(values, names, strict=True):
+        joint, number = robot.joint_by_name.get(name), number_of(item)
+        limit = joint.limit if joint is not None and joint.type in ("revolute", "prismatic") else None
         lower, upper = (limit.lower, limit.upper) if limit is not None else (None, None)
         if number is None or lower is None or upper is None or not lower < upper:
             continue
         if not lower - 1e-3 <= number <= upper + 1e-3:
             bounds = f"{lower:g} to {upper:g}"
             found.append((item, f"`{list_name}` has {number:g} for joint `{name}`, whose limits are {bounds}"))
-    if 2 * len(found) < len(names):
+    if 2 * len(found) < len(names) if most is None else len(found) <= most:
         yield from found
 
 
 _POSITION = r"home|pose|position|initial|ready|rest|stow|park|fold|waypoint|goal|target|start|angle|configuration"
 """Matches names of positions of several joints."""
 
-_OF_ONE = r"(?:position|pose|angle|width|opening|home|open|closed?)$"
+_OF_ONE = r"(?:position|pose|angle|width|opening|home|open|closed?|raised|lowered|extended|retracted|stowed)$"
 """Matches names of positions of one joint."""
+
+_OF_GRIPPER = r"^(?:open|grip|grasp|closed?)\w*_(?:width|position|opening)$"
+"""Matches names of positions of a gripper."""
 
 _CONVERTED = {
     "degrees": r"(?i)radians\s*\(|deg\w*2\w*rad|deg\w*_to_rad|/\s*180|180\.?0?\s*\*",
@@ -93,10 +132,11 @@ _LEAST = 3
 """Fewest values of a list without the names of its joints."""
 
 
-def positions_in_other_units(model: Model) -> Iterator[tuple[Source, Node, str]]:
+def positions_beyond_limits(model: Model) -> Iterator[tuple[Source, Node, str]]:
     """Yield the positions beyond the limits of their joints that are within them as degrees or millimetres.
 
-    Files and code that name the unit, or convert it, are accepted.
+    Files and code that name the unit, or convert it, are accepted. Of joints that are listed alone, all positions
+    beyond the limits are yielded.
     """
     robot, words = model.robot, None
     for source in yamls(model):
@@ -105,6 +145,10 @@ def positions_in_other_units(model: Model) -> Iterator[tuple[Source, Node, str]]
         seen = set[tuple[int, int]]()
         for key, values in _positions(source, model):
             found = [(unit, *each) for unit in _FACTORS if (each := _outside(values, robot, unit)) is not None]
+            if not found and len(values) == 1 and not _is_other(key) and not re.search(_OF_GRIPPER, key):
+                name, value = values[0]
+                for node, message in _beyond(key, [value], [name], robot, most=1):
+                    yield source, node, message
             if not found or (found[0][2].line, found[0][2].column) in seen:
                 continue
             unit, joint, value, bounds = found[0]
@@ -122,11 +166,14 @@ def _positions(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[s
     for group in (node for node in nodes(source) if node.entries):
         listed = next((each for name in (*_JOINTS, "joint") if (each := group.find(name)) is not None), None)
         names = listed.texts() if listed is not None else []
+        gripper = _gripper_of(group, model) if any(re.search(_OF_GRIPPER, key.text) for key, _ in group.entries) else ""
         for key, value in group.entries:
             is_other, is_position = _is_other(key.text), re.search(_POSITION, key.text, re.IGNORECASE) is not None
             points = [point for item in value.items if (point := item.find("positions")) is not None]
             if len(names) == 1 and re.search(_OF_ONE, key.text) and number_of(value) is not None:
                 yield key.text, [(names[0], value)]
+            elif gripper and re.search(_OF_GRIPPER, key.text) and number_of(value) is not None:
+                yield key.text, [(gripper, value)]
             if is_other or value is listed or not (is_position or points):
                 continue
             pairs = [(each.text, inner) for each, inner in value.entries]
@@ -139,6 +186,18 @@ def _positions(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[s
                 sets = {each for each in _groups(model) if len(each) == len(value.items)}
                 if len(sets) == 1:
                     yield key.text, list(zip(sets.pop(), value.items, strict=True))
+
+
+def _gripper_of(group: Node, model: Model) -> str:
+    """Return the joint of the only controller of one joint whose topic or action a node uses; empty without one."""
+    found = set[str]()
+    for _, value in group.entries:
+        first, separator, _ = value.text.strip("/").partition("/")
+        for one in (each for source in yamls(model) for each in settings(source)) if separator else ():
+            joint = one.group.find("joint") or one.group.find("joints")
+            if one.name == first and joint is not None and len(joint.texts()) == 1:
+                found.update(joint.texts())
+    return found.pop() if len(found) == 1 else ""
 
 
 def _groups(model: Model) -> set[tuple[str, ...]]:
@@ -163,7 +222,7 @@ def _outside(values: list[tuple[str, Node]], robot: Robot, unit: str) -> tuple[s
         limit = joint.limit if joint is not None and joint.type == kind else None
         if limit is None or limit.lower is None or limit.upper is None or not limit.lower < limit.upper:
             continue
-        if number is None or (unit == "degrees" and 0.0 < abs(number) < 1.0):
+        if number is None or 0.0 < abs(number) < 1.0:
             return None
         slack = 0.02 * (limit.upper - limit.lower)
         if not limit.lower - slack <= factor * number <= limit.upper + slack:

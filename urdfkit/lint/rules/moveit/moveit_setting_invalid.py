@@ -26,7 +26,8 @@ class MoveitSettingInvalid(RobotRule):
     - first positions beyond the limits of the joints
     - solver timeouts that are not positive, and default scaling factors above 1
     - Cartesian limits that are missing or have the wrong sign
-    - solvers for chains of groups with several branches
+    - solvers for chains of groups with several branches, and arms of three or four joints whose solver
+      has no ``position_only_ik``
     - joints of a group that no controller moves, and projections with joints of another group
 
     ## Why is this bad?
@@ -64,7 +65,11 @@ class MoveitSettingInvalid(RobotRule):
             uncontrolled_joints,
             unused_limits,
         )
-        from urdfkit.lint.facts.moveit.group_joints import projection_defects, without_chain
+        from urdfkit.lint.facts.moveit.group_joints import (
+            orientation_out_of_reach,
+            projection_defects,
+            without_chain,
+        )
         from urdfkit.lint.facts.moveit.planning import planning_defects
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups
@@ -82,6 +87,7 @@ class MoveitSettingInvalid(RobotRule):
                 *cartesian_limit_defects(source),
                 *unused_limits(source),
                 *(without_chain(source, root, model.robot) if not model.is_incomplete else ()),
+                *(orientation_out_of_reach(source, root, model.robot) if not model.is_incomplete else ()),
                 *(initial_positions_beyond_limits(source, model.robot) if not model.is_incomplete else ()),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
                 *projection_defects(

@@ -20,8 +20,9 @@ class ControllerContradictsWheels(RobotRule):
     Compares ``wheel_separation``, ``wheel_radius``, the radius, distances and corners of mecanum controllers, and the
     ``wheelbase`` and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
-    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
-    robot turns. Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
+    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when
+    the robot turns; not with a ``wheel_separation_multiplier``, which compensates for the slip. Wheels with meshes
+    are not measured. A left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -117,11 +118,14 @@ class ControllerContradictsWheels(RobotRule):
             for left_centre, right_centre in zip(wheel.middles, opposite.middles, strict=False)
         ]
         for parameter, value in _positive_number(controller.group, "wheel_separation"):
-            tuned = value * next(
+            multiplier = next(
                 (number for _, number in _positive_number(controller.group, "wheel_separation_multiplier")), 1.0
             )
+            tuned = value * multiplier
+            # A multiplier compensates for slip, so the separation itself is that of the wheels.
+            most = 1.0 + TOLERANCE if multiplier > 1.0 + TOLERANCE else max_ratio
             if separation_of_joints > 0.01 and not any(
-                distance / (1.0 + TOLERANCE) <= separation <= max_ratio * distance
+                distance / (1.0 + TOLERANCE) <= separation <= most * distance
                 for distance in distances
                 for separation in (value, tuned)
                 if distance

@@ -32,6 +32,7 @@ class ParameterValueInvalid(RobotRule):
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
     - an update rate that is higher than the rate of Gazebo's physics
     - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
+    - positions of a single joint beyond its limits, and lists of joints in another order than a comment on their values
     - minimum velocities above zero, and parameters with the indentation of a controller name
 
     ## Why is this bad?
@@ -99,14 +100,14 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.navigation.nav2_plugins import nav2_defects
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
         from urdfkit.lint.facts.navigation.sections import costmaps_not_nested
-        from urdfkit.lint.facts.parameters.joint_lists import list_defects, positions_in_other_units
+        from urdfkit.lint.facts.parameters.joint_lists import list_defects, positions_beyond_limits
         from urdfkit.lint.facts.parameters.node_parameters import node_defects, node_defects_of_ros1
         from urdfkit.lint.facts.parameters.ranges import out_of_order
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
         names = frozenset(name for source in yamls(model) for name in controllers(source))
-        of_workspace = (*published_twice(model), *node_defects_of_ros1(model), *positions_in_other_units(model))
+        of_workspace = (*published_twice(model), *node_defects_of_ros1(model), *positions_beyond_limits(model))
         of_workspace += tuple(rates_above_physics(model))
         for source, place, message in of_workspace:
             yield self.at_span(span_of(source, place), message)
