@@ -720,6 +720,7 @@ def generate_launch_description():
         ("depth_image_proc::PointCloudXYZNode", "; did you mean `depth_image_proc::PointCloudXyzNode`?"),
         ("depth_image_proc/point_cloud_xyzrgb", "; did you mean `depth_image_proc::PointCloudXyzrgbNode`?"),
         ("depth_image_proc::RegisterNode", None),
+        ("depth_image_proc::LabelledCloudsNode", None),
     ],
 )
 def test_a_component_belongs_to_its_package(tmp_path, plugin, hint):

@@ -33,6 +33,10 @@ def include(package, name="robot.launch.py", **arguments):
         ("def one(p, *n):\n    return join(p, *n)\na = one('b')", "a = join('b')"),
         ("def f(*n):\n    return N(n)\na = f(1)", "a = N((1,))"),
         ("a = [Node(n) for n in ('x', 'y')]", "a = [Node('x'), Node('y')]"),
+        ("def one(p, e=None):\n    return N(p + ([e] if e else []))\na = one([1], {2: 3})", "a = N([1] + [{2: 3}])"),
+        ("def one(p, e=None):\n    return N(p + ([e] if e else []))\na = one([1])", "a = N([1] + [])"),
+        ("def one(e):\n    return N(e if e else 1)\na = one([])", "a = N(1)"),
+        ("def one(e):\n    return N(e if e else 1)\na = one({})", "a = N(1)"),
     ],
 )
 def test_a_call_is_what_the_function_returns(text: str, written_out: str) -> None:
@@ -55,10 +59,17 @@ def test_a_call_is_what_the_function_returns(text: str, written_out: str) -> Non
         "def f(n):\n    return N(n)\na = OpaqueFunction(function=f)",
         "a = [N(n) for n in names]",
         "a = [N(n) for n in ('x', 'y') if n]",
+        "a = [1] if names else []",
     ],
 )
 def test_what_depends_on_a_run_stays_as_it_is(text: str) -> None:
     assert ast.unparse(inlined(ast.parse(text))) == ast.unparse(ast.parse(text))
+
+
+def test_a_computed_part_of_a_sum_of_lists_is_one_item() -> None:
+    tree = ast.parse("none = []\na = [1] + none + ([2] if c else [])")
+    reader = launch_reader(tree)
+    assert [ast.unparse(each) for each in reader.items(ast.Name("a"))] == ["1", "[2] if c else []"]
 
 
 def test_arguments_keep_their_place() -> None:

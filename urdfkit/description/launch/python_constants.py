@@ -91,7 +91,10 @@ class LaunchReader:
         return None
 
     def items(self, node: ast.expr | None, depth: int = 0) -> list[ast.expr]:
-        """Return the items of a list or tuple, with those of lists that are unpacked or added; empty for others."""
+        """Return the items of a list or tuple, with those of lists that are unpacked or added; empty for others.
+
+        A computed part of a sum of lists, such as ``a if b else c``, counts as one item.
+        """
         import ast
 
         if depth > 8:
@@ -99,12 +102,20 @@ class LaunchReader:
         if isinstance(node, ast.Name):
             return self.items(self.assigned.get(node.id), depth + 1)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-            return [*self.items(node.left, depth + 1), *self.items(node.right, depth + 1)]
+            parts = [(part, self.items(part, depth + 1)) for part in (node.left, node.right)]
+            return [item for part, inner in parts for item in inner or self._computed(part)]
         found: list[ast.expr] = []
         for item in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
             inner = self.items(item.value, depth + 1) if isinstance(item, ast.Starred) else []
             found += inner or [item]
         return found
+
+    def _computed(self, node: ast.expr) -> list[ast.expr]:
+        """Return an expression without known items as one item; an empty list has none."""
+        import ast
+
+        value = self.assigned.get(node.id) if isinstance(node, ast.Name) else node
+        return [] if isinstance(value, (ast.List, ast.Tuple, ast.BinOp)) else [node]
 
     def share(self, node: ast.expr) -> str | None:
         """Return the package whose share folder a call returns; None for other calls."""

@@ -122,6 +122,16 @@ class _Inliner(ast.NodeTransformer):
             values = values[:1] if is_true else values[1:]
         return values[0] if len(values) == 1 else node
 
+    def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
+        """Return the value that ``a if test else b`` has for a constant, list or dictionary as the test."""
+        self.generic_visit(node)
+        test = node.test
+        if isinstance(test, ast.Constant):
+            return node.body if test.value else node.orelse
+        if isinstance(test, (ast.List, ast.Tuple)):
+            return node.body if test.elts else node.orelse
+        return (node.body if test.keys else node.orelse) if isinstance(test, ast.Dict) else node
+
     def visit_ListComp(self, node: ast.ListComp) -> ast.AST:
         self.generic_visit(node)
         each = node.generators[0]

@@ -76,10 +76,13 @@ LaserScanToPointCloudNode; realsense2_camera: RealSenseNodeFactory; usb_cam: Usb
 Joy GameController; teleop_twist_joy: TeleopTwistJoy; robot_state_publisher: RobotStatePublisher; nav2_amcl: AmclNode;
 nav2_controller: ControllerServer; nav2_planner: PlannerServer; nav2_smoother: SmootherServer; nav2_bt_navigator:
 BtNavigator; nav2_waypoint_follower: WaypointFollower; nav2_velocity_smoother: VelocitySmoother; nav2_lifecycle_manager:
-LifecycleManager; nav2_map_server: MapServer MapSaver CostmapFilterInfoServer; nav2_collision_monitor: CollisionMonitor
-CollisionDetector
+LifecycleManager; nav2_map_server: MapServer MapSaver CostmapFilterInfoServer VectorObjectServer;
+nav2_collision_monitor: CollisionMonitor CollisionDetector
 """
-"""Package: classes of its components in ROS 2, in the namespace of the package (Humble to Rolling)."""
+"""Package: classes of its components in ROS 2, in the namespace of the package (Humble to Rolling).
+
+Other releases and copies of these packages have further components, so only similar names are reported.
+"""
 
 _ONLY_IN = {
     1: """controller_manager: controller_manager controller_group; xacro:
@@ -186,9 +189,12 @@ def wrong_components(source: Source) -> Iterator[tuple[Named, str]]:
         names = [f"{package}::{name}" for name in table.get(package, ())]
         if names and plugin.name not in names and re.fullmatch(r"[\w:/]+", plugin.name):
             lower = {re.sub(r"[\W_]|Node$", "", name).lower(): name for name in names}
-            near = lower.get(re.sub(r"[\W_]", "", plugin.name).lower()) or nearest(plugin.name, names, cutoff=0.6)
-            near = near or (names[0] if len(names) == 1 else None)
-            yield plugin, f"package `{package}` has no component `{plugin.name}`" + Suggestion(near, plugin.name)
+            near = lower.get(re.sub(r"[\W_]|Node$", "", plugin.name).lower())
+            # Compared without the package, which makes all names similar. Other releases can have further components.
+            kinds = {name.rpartition(":")[2]: name for name in names}
+            near = near or kinds.get(nearest(re.split("[:/]", plugin.name)[-1], kinds, cutoff=0.8) or "")
+            if near is not None:
+                yield plugin, f"package `{package}` has no component `{plugin.name}`" + Suggestion(near, plugin.name)
 
 
 def _in_elements(source: Source) -> Iterator[tuple[str, Named]]:

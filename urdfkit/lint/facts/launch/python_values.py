@@ -254,9 +254,11 @@ _SOURCES = {
 def _other_format(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     """Yield the path of a launch file in another format than its class loads."""
     endings, right = _SOURCES[kind]
-    texts = [text for node in ast.walk(_value(call.args[0], reader)) if (text := _constant(node)) is not None]
-    if texts and texts[-1].endswith(endings):
-        name = texts[-1].rpartition("/")[2]
+    constants = [node for node in ast.walk(_value(call.args[0], reader)) if isinstance(node, ast.Constant)]
+    last = max(constants, key=lambda node: (node.lineno, node.col_offset), default=None)
+    text = _constant(last) if last is not None else None
+    if text is not None and text.endswith(endings):
+        name = text.rpartition("/")[2]
         yield call.func, f"`{kind}` cannot load `{name}`, which has another format; use `{right}`"
 
 

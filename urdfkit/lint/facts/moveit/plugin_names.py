@@ -47,7 +47,7 @@ _CLASSES: dict[int, dict[str, str]] = {
         "pilz_industrial_motion_planner": "CommandPlanner",
     },
 }
-"""Version of ROS → package → all classes of its plugins."""
+"""Version of ROS → package → classes of its plugins; others that are not similar to them may exist."""
 
 _ONLY_IN = {
     1: ("moveit_fake_controller_manager",),
@@ -82,9 +82,8 @@ def wrong_plugins(text: str, version: int) -> Iterator[tuple[int, str, str]]:
             message = f"plugin `{at[0]}` belongs to ROS {3 - version}, and this file is for ROS {version}"
             right = f"{other}{separator if other == package else '/'}{near}" if near is not None else None
             yield at.start(), at[0], message + Suggestion(right, at[0])
-        elif classes and kind not in classes:
-            near = nearest(kind, classes, cutoff=0.5) or (classes[0] if len(classes) == 1 else None)
-            right = f"{package}{separator}{near}" if near is not None else None
+        elif kind not in classes and (similar := nearest(kind, classes, cutoff=0.6)) is not None:
+            right = f"{package}{separator}{similar}"
             yield at.start(), at[0], f"`{package}` has no plugin `{kind}`" + Suggestion(right, at[0])
 
 

@@ -1,0 +1,66 @@
+"""Lists of Python launch files with computed parts, and the lines of findings in launch files."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.lint.test_launch_mistakes import found, package, write
+
+MAPS = """
+from launch import LaunchDescription
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+from ament_index_python.packages import get_package_share_directory
+from os.path import join
+
+params = join(get_package_share_directory("cart"), "config", "nav.yaml")
+
+
+def generate_launch_description():
+    def server(package, executable, extra=None):
+        return Node(package=package, executable=executable, parameters=[params] + {more})
+
+    return LaunchDescription([server("nav2_map_server", "map_server", {{"{name}": "hall.yaml"}})])
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "name", "is_reported"),
+    [
+        ("([extra] if extra else [])", "yaml_filename", False),
+        ("([extra] if extra else [])", "frame_id", True),
+        ("([extra] if environ else [])", "frame_id", False),
+        ("more(extra)", "frame_id", False),
+    ],
+)
+def test_parameters_in_a_sum_of_lists_are_parameters_of_the_node(tmp_path, more, name, is_reported):
+    cart = package(tmp_path / "cart", "ament_cmake", "nav2_map_server", "launch_ros")
+    write(cart / "config/nav.yaml", "map_server:\n  ros__parameters:\n    topic_name: map\n")
+    write(cart / "launch/m.launch.py", MAPS.format(more=more, name=name))
+    message = "`map_server` needs the parameter `yaml_filename`"
+    assert [text for _, _, text in found(cart, "L126")] == ([message] if is_reported else [])
+
+
+FORMAT = """
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    return LaunchDescription([IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(PathJoinSubstitution([FindPackageShare("cart"), "launch", "{}"])))])
+"""
+
+
+@pytest.mark.parametrize("name", ["lift.launch.xml", "lift.launch.py"])
+def test_the_last_part_of_a_joined_path_decides_the_format(tmp_path, name):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros")
+    write(cart / "launch/m.launch.py", FORMAT.format(name))
+    write(cart / "launch/lift.launch.xml", "<launch/>")
+    write(cart / "launch/lift.launch.py", "from launch import LaunchDescription\n")
+    message = "`PythonLaunchDescriptionSource` cannot load `lift.launch.xml`, which has another format"
+    lines = [(line, text.partition(";")[0]) for _, line, text in found(cart, "L106")]
+    assert lines == ([(11, message)] if name.endswith("xml") else [])
