@@ -64,3 +64,76 @@ def test_the_last_part_of_a_joined_path_decides_the_format(tmp_path, name):
     message = "`PythonLaunchDescriptionSource` cannot load `lift.launch.xml`, which has another format"
     lines = [(line, text.partition(";")[0]) for _, line, text in found(cart, "L106")]
     assert lines == ([(11, message)] if name.endswith("xml") else [])
+
+
+SERVERS = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+NODES = [
+    "map_server",
+    "amcl",
+]
+
+
+def server(package, executable):
+    return Node(package=package, executable=executable,
+                name="{prefix}" + executable, parameters=[{{"frame_id": "map"}}, "params"])
+
+
+def generate_launch_description():
+    manager = Node(package="nav2_lifecycle_manager", executable="lifecycle_manager",
+                   parameters=[{{"node_names": NODES}}])
+    mapping = server("nav2_map_server", "map_server")
+    planner = server("nav2_planner", "planner_server")
+    return LaunchDescription([
+        mapping,
+        {planner}
+        server("nav2_amcl", "amcl"),
+        manager,
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("planner", "expected"),
+    [
+        ("planner,", [("L117", 6)]),  # after map_server
+        ("", [("L107", 22), ("L117", 6)]),
+    ],
+)
+def test_what_a_list_lacks_is_reported_where_it_is_to_be_added(tmp_path, planner, expected):
+    needed = ("nav2_map_server", "nav2_amcl", "nav2_planner", "nav2_lifecycle_manager", "launch_ros")
+    cart = package(tmp_path / "cart", "ament_cmake", *needed)
+    write(cart / "launch/n.launch.py", SERVERS.format(prefix="", planner=planner))
+    lines = [(code, line) for code in ("L107", "L117") for _, line, _ in found(cart, code)]
+    assert lines == expected
+
+
+BRIDGE = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="ros_gz_bridge", executable="parameter_bridge",
+             parameters=[{{
+                 "use_sim_time": True,
+                 "{name}": "bridge.yaml",
+             }}]),
+        Node(package="controller_manager", executable="ros2_control_node",
+             parameters=[
+                 {{"robot_description": "x"}}]),
+    ])
+"""
+
+
+def test_lines_of_nodes_without_parameters(tmp_path):
+    needed = ("ros_gz_bridge", "controller_manager", "launch_ros")
+    cart = package(tmp_path / "cart", "ament_cmake", *needed)
+    write(cart / "launch/n.launch.py", BRIDGE.format(name="bridge_file_of_topics"))
+    assert [(code, line) for code in ("L112", "L126") for _, line, _ in found(cart, code)] == [
+        ("L112", 15),
+        ("L126", 11),
+    ]

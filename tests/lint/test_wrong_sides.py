@@ -244,7 +244,7 @@ def generate_launch_description():
 """
 
 
-@pytest.mark.parametrize(("started", "line"), [("first", 13), ("third", 9)])
+@pytest.mark.parametrize(("started", "line"), [("first", 13), ("third", 12)])
 def test_a_handler_that_starts_an_action_again_is_wrong(tmp_path, started, line):
     cart = package(tmp_path / "cart", "joy", "launch", "launch_ros")
     write(cart / "launch/cart.launch.py", HANDLERS.format(started=started))

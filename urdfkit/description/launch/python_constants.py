@@ -88,6 +88,9 @@ class LaunchReader:
             is_plain = all(not isinstance(each, ast.FormattedValue) or _is_plain(each) for each in node.values)
             texts = [self.text(each, depth + 1) for each in pieces] if is_plain else [None]
             return "".join(text for text in texts if text is not None) if None not in texts else None
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add) and depth < 8:
+            left, right = self.text(node.left, depth + 1), self.text(node.right, depth + 1)
+            return left + right if left is not None and right is not None else None
         return None
 
     def items(self, node: ast.expr | None, depth: int = 0) -> list[ast.expr]:

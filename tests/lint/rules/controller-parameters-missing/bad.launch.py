@@ -5,7 +5,7 @@ DESCRIPTION = {"robot_description": "<robot name='cart'><link name='base'/></rob
 
 
 def generate_launch_description():
-    manager = Node(  # <!-- expect: L112 -->
-        package="controller_manager", executable="ros2_control_node", parameters=[DESCRIPTION]
+    manager = Node(
+        package="controller_manager", executable="ros2_control_node", parameters=[DESCRIPTION]  # <!-- expect: L112 -->
     )
     return LaunchDescription([manager])

@@ -6,9 +6,9 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description():
-    gui = DeclareLaunchArgument("gui", default_value="true")  # <!-- expect: L107 -->
-    spawner: Node = Node(package="controller_manager", executable="spawner", arguments=["a"])  # <!-- expect: L107 -->
+    gui = DeclareLaunchArgument("gui", default_value="true")
+    spawner: Node = Node(package="controller_manager", executable="spawner", arguments=["a"])
     other = Node(package="controller_manager", executable="spawner", arguments=["a"])
     handler = RegisterEventHandler(OnProcessExit(target_action=spawner, on_exit=[other]))
-    shell = launch.actions.ExecuteProcess(cmd=["ls"])  # <!-- expect: L107 -->
-    return LaunchDescription([handler])
+    shell = launch.actions.ExecuteProcess(cmd=["ls"])
+    return LaunchDescription([handler])  # <!-- expect: L107, L107, L107 -->

@@ -1,10 +1,10 @@
 from launch import LaunchDescription
 from launch_ros.actions import Node
 
-SERVERS = [  # <!-- expect: L117 -->
+SERVERS = [
     "planner_server",  # <!-- expect: L117 -->
     "amcl_node",  # <!-- expect: L117 -->
-    "map_server",
+    "map_server",  # <!-- expect: L117 -->
     "bt_navigator",
     "smoother_server",  # <!-- expect: L117 -->
 ]

@@ -1,6 +1,7 @@
 """Nodes that ROS 2 launch files start, with the names of their parameters."""
 
 import ast
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
@@ -35,6 +36,20 @@ class StartedNode:
     program: str
     parameters: tuple[str, ...] | None
     has_arguments: bool
+
+    @property
+    def settings_place(self) -> tuple[int, int]:
+        """Where parameters are to be added: at the first of ``parameters`` in Python, else at the node."""
+        if not self.source.file.endswith(".py"):
+            return self.start, self.end
+        others = "|".join(re.escape(name) for name in self.parameters or () if name != "use_sim_time")
+        named = re.compile(rf"[\"'](?:{others or '(?!)'})[\"']")
+        for pattern in (named, re.compile(r"(?<=\[)\s*[^\s,\]]+")):
+            start = self.source.text.find("parameters", self.start, self.end)
+            found = pattern.search(self.source.text, start, self.end) if start >= 0 else None
+            if found is not None:
+                return found.end() - len(found[0].strip()), found.end()
+        return self.start, self.end
 
 
 def started_nodes(model: Model) -> Iterator[StartedNode]:

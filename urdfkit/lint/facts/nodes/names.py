@@ -202,7 +202,8 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str], repor
     for source in managers:
         listed = lists[source.file]
         names_listed = {name for name, _ in listed}
-        own = {node.program if not node.has_name else name_of_node(node) for node in nodes if node.source is source}
+        order = [node.program if not node.has_name else name_of_node(node) for node in nodes if node.source is source]
+        own = {*order}
         others = [other for other in managers if other is not source]
         elsewhere = {name for other in others for name, _ in lists[other.file]}
         is_whole = not any(_lists_more(other) for other in others)
@@ -233,18 +234,10 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str], repor
             if name in meant | reported:
                 continue
             message = f"no lifecycle manager of this file lists the node `{name}`, so it is never activated"
-            first = next((at for each, at in listed if each in own), None)
-            yield source, _start_of_list(source, first) if first is not None else span, message
-
-
-def _start_of_list(source: Source, item: Span) -> Span:
-    """Return the line on which the list of an item begins; the item itself in block style."""
-    start = source.offset(item.line, item.column)
-    opening = max(source.text.rfind(each, 0, start) for each in "[(")
-    if opening < 0 or re.search(r"[\])]", source.text[opening:start]) or source.position(opening).line == item.line:
-        return item
-    line = source.text.rfind("\n", 0, opening) + 1
-    return source.span(line + len(source.text[line:opening]) - len(source.text[line:opening].lstrip()), opening + 1)
+            # The file starts the node after the one with this name, so its name belongs after this name.
+            before = order[: order.index(name)]
+            places = [at for each, at in listed if each in before] or [at for each, at in listed if each in own]
+            yield source, places[-1] if places else span, message
 
 
 def _unlisted(

@@ -78,10 +78,7 @@ def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, i
     for node in started_nodes(model):
         message = _of_ros2(node)
         if message:
-            # In Python, at the first of the parameters, if the node has any.
-            listed = re.compile(r"parameters\s*=\s*\[\s*([^\s,\]]+)").search(node.source.text, node.start, node.end)
-            place = (node.start, node.end) if listed is None else listed.span(1)
-            yield node.source, place, message, _ROS2[node.package, node.program][0]
+            yield node.source, node.settings_place, message, _ROS2[node.package, node.program][0]
 
 
 def _has_parameters(tag: Tag, source: Source, pattern: str) -> bool:

@@ -85,7 +85,7 @@ class ControllerParametersMissing(RobotRule):
             if is_manager and is_bare and not node.has_arguments:
                 lacks = "no controller parameters" if node.parameters else "no parameters"
                 message = f"`ros2_control_node` has {lacks}, so the types of its controllers are unknown"
-                yield self.at_span(node.source.span(node.start, node.end), message)
+                yield self.at_span(node.source.span(*node.settings_place), message)
 
 
 def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tuple[Source, str]]], model: Model) -> str:

@@ -64,7 +64,8 @@ class LaunchActionUnused(RobotRule):
                     continue
                 unknown = undefined(tree) if unknown is None else unknown
                 if first_slip(name, unknown) is None:
-                    found = self._finding(source, node, kind, name in targets)
+                    at = _missing_from(tree, node) or node
+                    found = self._finding(source, node, kind, name in targets, at)
                     again = _started_again(tree, created) if name in targets else None
                     if again is not None:
                         other = source.span(*place(source, again))
@@ -73,7 +74,7 @@ class LaunchActionUnused(RobotRule):
                         found = Finding(**{**found.__dict__, **details})
                     yield found
 
-    def _finding(self, source: Source, node: ast.Name, kind: str, is_target: bool) -> Finding:
+    def _finding(self, source: Source, node: ast.Name, kind: str, is_target: bool, at: ast.expr) -> Finding:
         from urdfkit.lint.facts.control.launch_package_paths import place
 
         only = "is only the target of an event handler and " if is_target else ""
@@ -82,7 +83,23 @@ class LaunchActionUnused(RobotRule):
             "list of arguments": "the arguments are not declared",
         }.get(kind, "it has no effect")
         message = f"{kind} `{node.id}` {only}is not added to the launch description: {effect}"
-        return self.at_span(source.span(*place(source, node)), message)
+        return self.at_span(source.span(*place(source, at)), message)
+
+
+def _missing_from(tree: ast.Module, node: ast.Name) -> ast.expr | None:
+    """Return the item of the only list of actions after which an action is to be added; None with several lists."""
+    from urdfkit.description.launch.python_constants import name_of
+
+    calls = [each for each in ast.walk(tree) if isinstance(each, ast.Call)]
+    lists = [call.args[0] for call in calls if name_of(call.func) == "LaunchDescription" and len(call.args) == 1]
+    is_elsewhere = any(name_of(call.func) in ("GroupAction", "OpaqueFunction", "add_action") for call in calls)
+    listed = lists[0] if len(lists) == 1 and not is_elsewhere else None
+    if not isinstance(listed, ast.List) or not listed.elts or listed.lineno < node.lineno:
+        return None
+    names = [each for each in ast.walk(tree) if isinstance(each, ast.Name)]
+    created = {each.id: each.lineno for each in names if isinstance(each.ctx, ast.Store) and each.lineno < node.lineno}
+    before = [item for item in listed.elts if isinstance(item, ast.Name) and item.id in created]
+    return max(before, key=lambda item: created[item.id], default=listed.elts[0])
 
 
 def _started_again(tree: ast.Module, created: Mapping[str, object]) -> ast.Name | None:
