@@ -40,12 +40,12 @@ class DuplicateLink(RobotRule):
             here, there = link.element.origin, first.element.origin
             if here.position == there.position and here.expansions and here.expansions != there.expansions:
                 calls.setdefault(_different_call(here.expansions, there.expansions), []).append(link)
+        # Several calls that repeat one link each have the names of a macro that uses too few of its parameters.
+        macros = [call.macro for call in calls]
+        calls = {call: links for call, links in calls.items() if links[1:] or macros.count(call.macro) == 1}
         for call, links in calls.items():
-            if len(links) > 1:
-                yield self._of_call(model, call, links)
-        single = [
-            (link, first) for link, first in pairs if not any(link in each for each in calls.values() if each[1:])
-        ]
+            yield self._of_call(model, call, links)
+        single = [(link, first) for link, first in pairs if not any(link in each for each in calls.values())]
         for link, first in single:
             yield self.at(
                 model,
@@ -59,9 +59,9 @@ class DuplicateLink(RobotRule):
     def _of_call(self, model: Model, call: Expansion, links: list[Link]) -> Finding:
         joints = (one for one in model.robot.joints if call in one.element.origin.expansions)
         made = [*(link.name for link in links), *(joint.name for joint in joints)]
-        message = (
-            f"the call of macro `{call.macro}` repeats {len(links)} links of another call, such as `{links[0].name}`"
-        )
+        some = f"{len(links)} links of another call, such as `{links[0].name}`"
+        some = some if links[1:] else f"link `{links[0].name}` of another call"
+        message = f"the call of macro `{call.macro}` repeats {some}"
         return self.at_span(
             model.span(call.position),
             message,
