@@ -7,7 +7,7 @@ from math import hypot
 from urdfkit.description.urdf.geometry import rotate, unit
 from urdfkit.description.urdf.robot import Cylinder, Joint, Sphere
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives, wheel_of
-from urdfkit.lint.facts.twins import twins
+from urdfkit.lint.facts.twins import mirrored, side_of
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -40,8 +40,9 @@ def pairs_of_wheels(model: Model) -> list[WheelPairs]:
     if found:
         return found
     wheels = {wheel.joint.name: wheel for wheel in rolling_wheels(model)}
-    pairs = [(wheels.get(pair.first.name), wheels.get(pair.second.name)) for pair in twins(model) if pair.are_sides]
-    sides = [(left, right) for left, right in pairs if left is not None and right is not None]
+    left_wheels = [wheel for name, wheel in wheels.items() if side_of(name) == "left"]
+    pairs = [(wheel, wheels.get(name)) for wheel in left_wheels for name in mirrored(wheel.joint.name)]
+    sides = [(left, right) for left, right in pairs if right is not None]
     return [WheelPairs(tuple(left for left, _ in sides), tuple(right for _, right in sides))] if sides else []
 
 

@@ -50,7 +50,8 @@ def misplaced(model: Model) -> Iterator[Place]:
     """Yield the place that is off the surface of its parent link, if all other joints are on theirs.
 
     Compares joints that turn or slide within limits, and fixed joints with such joints below, but not the joints of
-    steered wheels, which are next to the chassis. The joints of one macro count as one.
+    steered wheels, which are next to the chassis, nor fixed joints at the centre of their child links. The joints of
+    one macro count as one.
     """
     off: dict[object, Place] = {}
     compared = _compared(model)
@@ -84,6 +85,7 @@ def _compared(model: Model) -> list[tuple[Joint, Extent]]:
         (joint, parent)
         for joint in joints
         if (joint.type in ("revolute", "prismatic") or (joint.type == "fixed" and joint.child in carriers))
+        and not (joint.type == "fixed" and _is_centred(joint, model))
         and (parent := extents.get(joint.parent or "")) is not None
         and joint.parent not in meshed
         and not (joint.type == "revolute" and joint.child in axles)
@@ -94,6 +96,12 @@ def depth_of(joint_and_parent: tuple[Joint, Extent]) -> float:
     """Return the depth of a joint below the surface of its parent link, whose extent is given; see `depth`."""
     joint, parent = joint_and_parent
     return depth(joint.origin.xyz, parent)
+
+
+def _is_centred(joint: Joint, model: Model) -> bool:
+    """Return whether a joint is in the middle of its child link, so that it is not where both links touch."""
+    child = model.extents.get(joint.child or "")
+    return child is not None and depth((0.0, 0.0, 0.0), child) > _PART * child.diagonal
 
 
 def _origin(joint: Joint) -> Element:

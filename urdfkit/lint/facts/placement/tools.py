@@ -21,8 +21,8 @@ _DEPTH = 0.002
 _PART = 0.05
 """Smallest part of the size of the body that this depth is."""
 
-_BACK = -0.7
-"""Cosine of the smallest angle to the direction of the tool or the fingers that is backwards."""
+_BACK, _BESIDE = -0.7, 0.5
+"""Cosines of the smallest angles to the direction of the tool or the fingers that are backwards and to the side."""
 
 
 def tools_inside(model: Model) -> Iterator[tuple[Joint, float]]:
@@ -43,8 +43,8 @@ def tools_inside(model: Model) -> Iterator[tuple[Joint, float]]:
             yield joint, depth
 
 
-def tools_behind(model: Model) -> Iterator[Joint]:
-    """Yield the fixed joints of frames of tools that are on the other side of the body than the fingers."""
+def tools_behind(model: Model) -> Iterator[tuple[Joint, bool]]:
+    """Yield the fixed joints of frames of tools that are not in front of the fingers, and whether they are behind."""
     for joint in model.robot.joints:
         frame, fingers = model.robot.link_by_name.get(joint.child or ""), list(_fingers(joint.parent or "", model))
         if joint.type != "fixed" or frame is None or shapes_of(frame) or not fingers:
@@ -53,8 +53,9 @@ def tools_behind(model: Model) -> Iterator[Joint]:
         direction, offset = unit((x, y, z)), unit(joint.origin.xyz)
         if direction is None or offset is None or not _TOOL.search(f"{joint.name} {frame.name}"):
             continue
-        if sum(a * b for a, b in zip(direction, offset, strict=True)) < _BACK:
-            yield joint
+        along = sum(a * b for a, b in zip(direction, offset, strict=True))
+        if along < _BESIDE:
+            yield joint, along < _BACK
 
 
 def cameras_looking_back(model: Model) -> Iterator[Joint]:

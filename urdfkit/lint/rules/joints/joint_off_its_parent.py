@@ -8,9 +8,10 @@ class JointOffItsParent(RobotRule):
 
     ## What it does
     Compares the positions of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the
-    bounding boxes of their parent links. Joints that steer wheels are not compared. A joint is reported if it is away
-    from the shape, or so deep inside that its child link is inside the parent link, while at least four other joints
-    are exactly on the surface. A telescope stage on a prismatic joint may be inside.
+    bounding boxes of their parent links. Joints that steer wheels, and fixed joints in the middle of their child links,
+    are not compared. A joint is reported if it is away from the shape, or so deep inside that its child link is inside
+    the parent link, while at least four other joints are exactly on the surface. A telescope stage on a prismatic joint
+    may be inside.
 
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually

@@ -6,7 +6,7 @@ from urdfkit.description.urdf.robot import Limit
 from urdfkit.description.urdf.version import RATE_LIMITS, version_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
-_TURNING = re.compile(r"(?i)wheel|roller|caster|rotor|propeller|spin|fan(?![a-z])")
+_TURNING = re.compile(r"(?i)wheel|roller|caster|rotor|propeller|spin|fan(?![a-z])|(?<![a-z])roll(?![a-z])")
 """Matches the name of a joint that turns without limits, so that its type is wrong and not its limit."""
 
 

@@ -17,7 +17,10 @@ from urdfkit.description.urdf.robot import (
     Vector,
     Visual,
 )
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.facts.gazebo.rolling_wheels import WheelPairs, is_lifted, pairs_of_wheels
+from urdfkit.lint.facts.root_cause import is_not_positive, root_cause
 from urdfkit.lint.model.placement import Frame
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -132,16 +135,21 @@ class CasterOffTheGround(RobotRule):
                 yield self.at(model, element, message, attribute="name", link=link.name, help=help)
             elif gap < -_MAX_DEPTH * radius:
                 message = f"link `{link.name}` extends {-gap:.3g} m below the drive wheels and lifts them"
-                help = f"raise the link or its shapes by {-gap:.3g} m"
+                # The wheels are attached to this link, so their own offsets are wrong.
+                carried = _offset_between(link.name, drive.left[0].joint, parent_joint)
+                what = "lower the wheels" if carried is not None else "raise the link or its shapes"
+                help = f"{what} by {-gap:.3g} m"
                 wheels = tuple(wheel.joint.child or "" for wheel in (*drive.left, *drive.right))
                 # The other shapes of the link are above the ground, so the place of this one is wrong.
                 is_only = shape is not None and (len(link.collisions) == len(link.visuals) == 1 and _differ(link))
-                origin = joint.element.find("origin") if joint is not None else None
+                origin = (carried or joint.element.find("origin")) if joint is not None else None
                 place = shape.element.find("origin") or shape.element if shape is not None and is_only else element
                 attribute = None if is_only else "name"
+                position: Element | Position = place
                 if origin is not None and not is_only:
-                    place, attribute = origin, "xyz"
-                yield self.at(model, place, message, attribute=attribute, link=link.name, help=help, names=wheels)
+                    cause = root_cause(model, origin, "xyz", is_not_positive) if carried is not None else None
+                    position, attribute = cause or (origin, "xyz")
+                yield self.at(model, position, message, attribute=attribute, link=link.name, help=help, names=wheels)
             elif joint is not None and is_caster and len(drive.left) == 1 and gap < 2.0 * radius:
                 supports.append((gap / max(distance, 1e-3), gap, joint))
         for tilt, gap, joint in sorted(supports, key=lambda support: support[0])[:1]:
@@ -168,6 +176,18 @@ def _root(parent_joint: dict[str | None, Joint], joint: Joint) -> str | None:
         seen.add(joint.parent)
         joint = parent_joint[joint.parent]
     return joint.parent
+
+
+def _offset_between(link: str, wheel: Joint, parent_joint: dict[str | None, Joint]) -> Element | None:
+    """Return the ``<origin>`` with the largest z between a wheel and a link that carries it; None if it does not."""
+    path: list[Joint] = []
+    joint: Joint | None = wheel
+    while joint is not None and joint not in path:
+        path.append(joint)
+        if joint.parent == link:
+            return max(path, key=lambda each: abs(each.origin.xyz[2])).element.find("origin")
+        joint = parent_joint.get(joint.parent)
+    return None
 
 
 def _is_rigid(model: Model, parent_joint: dict[str | None, Joint], link: Link) -> bool:

@@ -10,7 +10,9 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _START, _END = r"(?:(?<![A-Za-z])|(?<=[a-z])(?=[A-Z]))", r"(?![a-z])"
 
-_SLIDES = re.compile(rf"{_START}(?i:slide|slider|sliding|prismatic|telescop\w*|elevator|extension|linear){_END}")
+_SLIDES = re.compile(
+    rf"{_START}(?i:slide|slider|sliding|prismatic|telescop\w*|elevator|extension|linear|rail|carriage){_END}"
+)
 """Names of joints that move along a line."""
 
 _LIFTS = re.compile(rf"{_START}(?i:lift|elevator|forks?|mast_?(?:lift|stage|extension)){_END}")
@@ -36,7 +38,8 @@ class JointContradictsName(RobotRule):
     ## What it does
     Compares the type and the axis of joints with the words in their names, with all joints at position zero:
 
-    - A ``slide``, ``prismatic``, ``telescope``, ``elevator`` or ``linear`` joint does not rotate.
+    - A ``slide``, ``prismatic``, ``telescope``, ``elevator``, ``linear``, ``rail`` or ``carriage`` joint does not
+      rotate.
     - A prismatic ``lift``, ``elevator`` or ``fork`` moves vertically, and upwards if all its positions are positive. A
       revolute ``lift``, ``elevator`` or ``fork`` does not have a vertical axis.
     - ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``, ``pitch`` and ``knee``
@@ -91,7 +94,8 @@ class JointContradictsName(RobotRule):
             if fault is not None:
                 message, element, attribute = fault
                 help = "check <axis> and the rpy of <origin>, or correct the name"
-                yield self.at(model, element, message, attribute=attribute, joint=joint.name, help=help)
+                names = (joint.parent,) if joint.parent else ()
+                yield self.at(model, element, message, attribute=attribute, joint=joint.name, help=help, names=names)
 
 
 def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:

@@ -8,9 +8,9 @@ class ToolFrameInsideBody(RobotRule):
 
     ## What it does
     Checks frames without shapes that are fixed to a link with fingers and have ``tcp``, ``tool``, ``grasp``, ``tip`` or
-    ``end_effector`` in their names. Reports a frame that is inside a box or cylinder of that link, or on the side
-    opposite to the fingers. Also reports an optical frame of a camera that is fixed to the last link of an arm, if its
-    z axis points away from the fingers or the tool.
+    ``end_effector`` in their names. Reports a frame that is inside a box or cylinder of that link, or not on the side
+    of the fingers. Also reports an optical frame of a camera that is fixed to the last link of an arm, if its z axis
+    points away from the fingers or the tool.
 
     ## Why is this bad?
     The gripper collides with objects at the planned pose, and the camera sees the arm. Usually the offset was copied
@@ -63,8 +63,10 @@ class ToolFrameInsideBody(RobotRule):
             place = joint.element.find("origin") or joint.element
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
-        for joint in tools_behind(model):
-            message = f"frame `{joint.child}` is behind link `{joint.parent}`, whose fingers are on the other side"
+        for joint, is_behind in tools_behind(model):
+            message = f"frame `{joint.child}` is beside link `{joint.parent}`, whose fingers are on another side"
+            if is_behind:
+                message = f"frame `{joint.child}` is behind link `{joint.parent}`, whose fingers are on the other side"
             place = joint.element.find("origin") or joint.element
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
