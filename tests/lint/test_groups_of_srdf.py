@@ -59,3 +59,46 @@ def test_a_state_of_another_group_is_one_finding(tmp_path, group):
     findings = found(tmp_path, SRDF.replace('name="home" group="arm"', f'name="home" group="{group}"'))
     assert {code for code, _, _ in findings} == {"M107"}
     assert all("not in group `lift`" in message for _, _, message in findings)
+
+
+FINGERS = ROBOT.replace("</robot>", "{}</robot>").format(
+    "".join(
+        JOINT.replace("lN", f"{side}_finger").replace("jN", f"{side}_joint").replace("lM", "l3")
+        for side in ("left", "right")
+    )
+)
+GRIPPER = """<robot name="arm">
+  <group name="arm"><chain base_link="l0" tip_link="l3"/></group>
+  <group name="gripper">
+    <joint name="left_joint"/>
+  </group>
+  <group_state name="open" group="gripper"><joint name="left_joint" value="0.5"/></group_state>
+  <group_state name="closed" group="gripper"><joint name="left_joint" value="0"/></group_state>
+  <passive_joint name="right_joint"/>
+</robot>"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("", "", None),
+        (
+            'group name="gripper"',
+            'group name="hand"',
+            "M104 group `hand` is not used; did you mean `gripper`, which is used but undefined?",
+        ),
+        (
+            '<joint name="left_joint"/>\n',
+            '<link name="left_joint"/>\n',
+            "M104 link `left_joint` of <link> does not exist in robot `arm`; it is a joint: write <joint>",
+        ),
+    ],
+)
+def test_a_mistake_in_a_group_has_one_finding(tmp_path, old, new, message):
+    (tmp_path / "config").mkdir()
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "arm.urdf").write_text(FINGERS)
+    (tmp_path / "config" / "arm.srdf").write_text(GRIPPER.replace(old, new))
+    (tmp_path / "config" / "ompl_planning.yaml").write_text("gripper:\n  planner_configs: [RRT]\n")
+    found = lint(tmp_path, select=("M104", "M105", "M107", "M108", "M109"))
+    assert [f"{one.code} {one.message}" for one in found] == ([message] if message else [])

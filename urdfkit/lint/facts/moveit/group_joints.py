@@ -42,6 +42,21 @@ def projection_defects(
             yield node, f"joint `{foreign[0]}` of `projection_evaluator` is not in group `{group.text}`"
 
 
+def group_of_states(name: str, candidates: Collection[str], root: Element, robot: Robot) -> str | None:
+    """Return the only candidate with all joints that the states of an undefined group set; None without one.
+
+    Args:
+        name: the undefined group.
+        candidates: groups of the SRDF.
+        root: the SRDF.
+        robot: the robot.
+    """
+    states = [state for state in root.find_all("group_state") if state.get("group") == name]
+    valued = {value.get("name") or "" for state in states for value in state.find_all("joint")}
+    found = [each for each in candidates if valued and valued <= (joints_of(each, root, robot) or set())]
+    return found[0] if len(found) == 1 else None
+
+
 def without_chain(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:
     """Yield the groups with a solver for chains whose joints are on several branches of the robot.
 

@@ -11,6 +11,9 @@ _TIMES = 50.0
 _MIN_SIZE = 2.0
 """Smallest size that is checked [m]."""
 
+_LONGEST_RAIL = 100.0
+"""Largest size of a link along which another link slides [m]."""
+
 _MIN_OTHERS = 3
 """Smallest number of sizes and distances to compare with."""
 
@@ -21,8 +24,8 @@ class SizeInOtherUnit(RobotRule):
     ## What it does
     Compares boxes, cylinders, spheres and capsules with the median of the distances between joints and the sizes of the
     other shapes. Reports shapes of more than 50 times that median and more than 2 m. The root link is not checked,
-    because it may be a ground. Links with an implausible density, which I514 reports, are not checked either. G604
-    checks meshes.
+    because it may be a ground. A link on which another link slides may be up to 100 m long. Links with an implausible
+    density, which I514 reports, are not checked either. G604 checks meshes.
 
     ## Why is this bad?
     The shape hides the robot and collides with everything. Usually its size was written in millimetres.
@@ -59,9 +62,12 @@ class SizeInOtherUnit(RobotRule):
         if not large or model.is_incomplete:
             return
         children = {joint.child for joint in model.robot.joints}
+        rails = {joint.parent for joint in model.robot.joints if joint.type == "prismatic"}
         for name, extent in large.items():
             link = model.robot.link_by_name[name]
             if name not in children or any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
+                continue
+            if name in rails and extent.diagonal <= _LONGEST_RAIL:
                 continue
             offsets = filter(None, model.facts.of(offset_of, model.robot.joints))
             others = sorted([*(other.diagonal for key, other in extents.items() if key != name), *offsets])
@@ -72,8 +78,8 @@ class SizeInOtherUnit(RobotRule):
             yield self.at(
                 model,
                 shape.find("geometry") or shape,
-                f"link `{name}` has a size of {extent.diagonal:.3g} m; "
-                f"parts of the robot have a median size of {median:.2g} m",
+                f"link `{name}` has a size of {extent.diagonal:.3g} m, "
+                f"more than {_TIMES:g} times the median size of the other parts",
                 link=name,
                 help="write sizes in metres",
             )

@@ -135,4 +135,4 @@ class MoveitNameUndefined(RobotRule):
         from urdfkit.lint.fix_builders import meant
 
         hint = meant(node.text.rpartition("/")[2], names)[1]  # type: ignore[arg-type]
-        return self.at_span(span_of(source, node), message + hint)
+        return self.at_span(span_of(source, node), message + hint, names=(node.text,))

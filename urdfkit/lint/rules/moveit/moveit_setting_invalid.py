@@ -95,7 +95,7 @@ class MoveitSettingInvalid(RobotRule):
                 ),
             ]
             for node, message in defects:
-                yield self.at_span(span_of(source, node), message)
+                yield self.at_span(span_of(source, node), message, names=(node.text,))
             stops = ros_version(source) == 2
             for key, node, message in (flag for entry in entries(source) for flag in _not_boolean(entry)):
                 severity = "error" if stops and key in _READ_BY_MOVEIT2 else self.severity

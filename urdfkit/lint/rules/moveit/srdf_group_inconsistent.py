@@ -104,8 +104,9 @@ class SrdfGroupInconsistent(RobotRule):
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
                 elif not is_own and parent in model.robot.link_by_name and name != effector.get("parent_group"):
                     yield from self._carried(effector, root, model, severity)
-            yield from self._passive(root, model, severity)
-            yield from self._not_passive(root, model, severity)
+            wrong = list(self._passive(root, model, severity))
+            # A name in place of another one leaves the other joint without an entry.
+            yield from wrong or self._not_passive(root, model, severity)
 
     def _frame(self, joint: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for a virtual joint that begins in the robot, or that is fixed although the robot drives."""

@@ -45,6 +45,7 @@ class SrdfNameUndefined(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""
+        from urdfkit.lint.facts.moveit.group_joints import group_of_states
         from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, severity_for, virtual_joints
         from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import meant
@@ -68,10 +69,14 @@ class SrdfNameUndefined(RobotRule):
                 if kind == "group" and suggestion is None:  # short names such as `arm`
                     slip = next((each for each in existing[kind] if is_slip(name, each)), None)
                     hint = Suggestion(slip, name)
-                if kind == "group" and suggestion is not None and len(places) > 1 and (kind, suggestion) not in uses:
-                    message = f"group `{suggestion}` is not used; did you mean `{name}`, which is used but undefined?"
-                    group, severity = groups(root)[suggestion], severity_for(root, model)
-                    yield self.at(model, group, message, attribute="name", severity=severity)
+                unused = [each for each in groups(root) if kind == "group" and (kind, each) not in uses]
+                misnamed = suggestion if suggestion in unused else group_of_states(name, unused, root, robot)
+                if misnamed is not None and len(places) > 1:
+                    message = f"group `{misnamed}` is not used; did you mean `{name}`, which is used but undefined?"
+                    group, severity = groups(root)[misnamed], severity_for(root, model)
+                    yield self.at(
+                        model, group, message, attribute="name", severity=severity, kind="unused", names=(name,)
+                    )
                     continue
                 other = {"link": "joint", "joint": "link"}.get(kind, "")
                 if name in existing.get(other, ()) and places[0].element.tag == kind:

@@ -61,8 +61,12 @@ class SrdfStateInvalid(RobotRule):
             severity = severity_for(root, model)
             passive = {element.get("name") for element in root.find_all("passive_joint")}
             wrong = dict(self._exchanged(root, model))
-            for element, message in wrong.values():
-                yield self.at(model, element, message, attribute="name", joint=element.get("name"), severity=severity)
+            for group, (element, counterpart) in wrong.items():
+                joint = element.get("name")
+                message = f"group `{group}` contains joint `{joint}`, but its states have values for `{counterpart}`"
+                yield self.at(
+                    model, element, message, attribute="name", joint=joint, severity=severity, names=(counterpart,)
+                )
             excluded: set[str] = set()
             for joints, numbers in reversed_limits(root, robot):
                 excluded |= {joint.name for joint in joints}
@@ -139,7 +143,7 @@ class SrdfStateInvalid(RobotRule):
                 yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity)
 
     def _exchanged(self, root: Element, model: Model) -> Iterator[tuple[str, tuple[Element, str]]]:
-        """Yield the groups with a joint for whose counterpart on the other side all their states have a value."""
+        """Yield each group with a joint, and with its counterpart, for which all states have a value instead."""
         from urdfkit.lint.facts.twins import mirrored
 
         for group in root.find_all("group"):
@@ -153,8 +157,7 @@ class SrdfStateInvalid(RobotRule):
                 for other in mirrored(joint):
                     is_other = other in model.robot.joint_by_name and other not in listed
                     if is_other and valued and all(joint not in each and other in each for each in valued):
-                        message = f"group `{name}` contains joint `{joint}`, but its states have values for `{other}`"
-                        yield name, (element, message)
+                        yield name, (element, other)
 
     def _value(self, value: Element, model: Model, severity: Severity | None) -> Findings:
         from urdfkit.lint.facts.root_cause import type_at

@@ -111,7 +111,7 @@ class BridgeMisspelt(RobotRule):
                 text = f"a bridge reads `{reference.name}`, but this sensor publishes on `{found.meant}`"
                 details = {"other": place, "is_other_wrong": True, "cause": "topic", "message": text}
                 found = Finding(**{**found.__dict__, **details, "suggestion": None})
-            yield found
+            yield Finding(**{**found.__dict__, "names": (found.meant,)}) if found.meant else found
 
     def _worlds(self, model: Model) -> Findings:
         from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_worlds
