@@ -137,3 +137,33 @@ def test_lines_of_nodes_without_parameters(tmp_path):
         ("L112", 15),
         ("L126", 11),
     ]
+
+
+MOVE_GROUP = """<launch>
+  <node name="move_group" pkg="moveit_ros_move_group" type="move_group"/>
+  <group ns="{}">
+    <group ns="planning_pipelines/ompl">
+      <param name="planning_plugin" value="ompl_interface/OMPLPlanner"/>
+    </group>
+  </group>
+</launch>
+"""
+
+
+@pytest.mark.parametrize("space", ["move_group", "moveit"])
+def test_move_group_reads_pipelines_from_its_own_namespace(tmp_path, space):
+    cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
+    write(cart / "launch/m.launch", MOVE_GROUP.format(space))
+    message = "node `move_group` reads planning pipelines from its own namespace; did you mean `move_group`?"
+    assert [row[1:] for row in found(cart, "L110")] == ([(3, message)] if space == "moveit" else [])
+
+
+@pytest.mark.parametrize(("frames", "is_swapped"), [("map base", False), ("base map", True), ("base camera", False)])
+def test_a_map_is_not_below_the_root_of_a_robot(tmp_path, frames, is_swapped):
+    cart = package(tmp_path / "cart", "ament_cmake", "tf2_ros")
+    parent, child = frames.split()
+    arguments = f"--x 1 --frame-id {parent} --child-frame-id {child}"
+    node = f'<node pkg="tf2_ros" exec="static_transform_publisher" args="{arguments}"/>'
+    write(cart / "launch/m.launch.xml", f"<launch>\n{node}\n</launch>\n")
+    message = "`map` cannot be below `base`, the root of robot `cart`; swap the frames"
+    assert [row[2] for row in found(cart, "L118")] == ([message] if is_swapped else [])

@@ -32,6 +32,9 @@ _NUMBERS = ("--x", "--y", "--z", *_QUATERNION, *_ANGLES)
 _OF_OTHERS = r"map|odom|world|earth|utm|base|cam|imu|laser|lidar|scan|gps|gnss|rtk|marker|tag|vicon|mocap|optitrack|/"
 """Matches frames that nodes outside of the packages may publish."""
 
+_FIXED = r"map|world|earth|utm"
+"""Matches frames below which robots move."""
+
 _MAX_ANGLE = 2.0 * math.pi + 0.01
 _MAX_ERROR = 0.05
 """Difference of the length of a quaternion from 1; tf2 rounds the length of 0.7071 0 0 0.7071."""
@@ -133,6 +136,13 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
         for joint in root.find_all("virtual_joint")
     ):
         yield child, f"the virtual joint of the SRDF puts `{names[0]}` below `{names[1]}`; swap the frames"
+        return
+    roots = model.robot.root_by_name
+    if child is not None and names[0] in roots and re.fullmatch(_FIXED, names[1]) and not re.search(_FIXED, names[0]):
+        yield (
+            child,
+            f"`{names[1]}` cannot be below `{names[0]}`, the root of robot `{model.robot.name}`; swap the frames",
+        )
         return
     if parent is not None and names[0] and not _is_defined(parent, names[0], model):
         near = _meant(names[0], links)

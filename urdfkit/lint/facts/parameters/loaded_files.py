@@ -245,6 +245,25 @@ def spawned_while_paused(source: Source, model: Model) -> Defects:
             yield arguments, "Gazebo starts paused, and controllers wait until it runs; add `-unpause`"
 
 
+def pipelines_elsewhere(source: Source) -> Defects:
+    """Yield the namespaces of groups with planning pipelines in which the node ``move_group`` does not read them."""
+    tags = list(_tags(source)) if "moveit_ros_move_group" in source.text else []
+    nodes = [tag.attributes for tag in tags if tag.name == "node" and _program(tag) == "move_group"]
+    names = {at["name"].value for at in nodes if "name" in at and "ns" not in at}
+    groups = [tag for tag in tags if tag.name == "group" and "ns" in tag.attributes]
+    inner = [tag for tag in groups if tag.attributes["ns"].value.startswith("planning_pipelines")]
+    outer = [tag.parent for tag in inner if tag.parent is not None and "ns" in tag.parent.attributes]
+    spaces = {tag.start: tag.attributes["ns"] for tag in outer if _namespace(tag) == _own_namespace(tag)}
+    is_plain = len(names) == 1 and not any("$" in name for name in (*names, *(each.value for each in spaces.values())))
+    for space in spaces.values() if is_plain and len(nodes) == 1 else ():
+        if space.value.strip("/") not in names:
+            (name,) = names
+            yield (
+                space,
+                f"node `{name}` reads planning pipelines from its own namespace" + Suggestion(name, space.value),
+            )
+
+
 def _is_command(tag: Tag) -> bool:
     """Return whether a <rosparam> does something else than to load its file."""
     command = tag.attributes.get("command")

@@ -73,6 +73,7 @@ class LaunchValueInvalid(RobotRule):
         from urdfkit.lint.facts.parameters.loaded_files import (
             controllers_without_manager,
             loaded_file_defects,
+            pipelines_elsewhere,
             spawned_while_paused,
             unloaded_moveit_files,
             unloaded_pipelines,
@@ -104,6 +105,7 @@ class LaunchValueInvalid(RobotRule):
                 *spawned_while_paused(source, model),
                 *unread_semantics(source, model),
                 *untimed_pipelines(source),
+                *pipelines_elsewhere(source),
             )
             for attribute, message in found_in_files if version == 1 else ():
                 span = source.span(attribute.value_start, attribute.value_end)
