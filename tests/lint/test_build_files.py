@@ -182,6 +182,7 @@ def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path
         ("project(cart)", "project(cart))", "2: unmatched `)`"),
         ("project(cart)\n", "", "1: CMakeLists.txt does not call project()"),
         ("find_package(ament_cmake REQUIRED)\n", "", "9: ament_package() needs find_package(ament_cmake REQUIRED)"),
+        ("(ament_cmake R", "(catkin R", "3: ament_package() needs find_package(ament_cmake REQUIRED)"),
         ("(ament_cmake R", "(ament_cmakes R", "3: unknown package `ament_cmakes`; did you mean `ament_cmake`?"),
         ("urdf\n  DESTINATION", "urdf\n ", "4: install(DIRECTORY) has no DESTINATION"),
         ("share/${PROJECT_NAME}", "share/${PROJECT}", "5: variable `PROJECT` does not exist"),

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from urdfkit.description.control.settings import Settings
+from urdfkit.description.xml.source import Position
+from urdfkit.errors import DescriptionError
 from urdfkit.lint import lint
 
 WHEEL = """<link name="{name}"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
@@ -14,7 +17,14 @@ MANIFEST = "<package format='3'><name>cart</name><version>1.0.0</version></packa
 
 
 def found(
-    write, settings: str, left: str = "0 0.2 0", right: str = "0 -0.2 0", axis: str = "0 1 0", more: int = 0
+    write,
+    settings: str,
+    left: str = "0 0.2 0",
+    right: str = "0 -0.2 0",
+    axis: str = "0 1 0",
+    more: int = 0,
+    sides: tuple[str, ...] = ("left", "right"),
+    codes: tuple[str, ...] = ("K970",),
 ) -> list[str]:
     """Return the messages about a cart with these wheels, and with more wheels behind them."""
     write("cart/package.xml", MANIFEST)
@@ -24,13 +34,13 @@ def found(
     wheels = [WHEEL.format(name=name, xyz=xyz, axis=axis) for name, xyz in places.items()]
     model = write("cart/urdf/cart.urdf", '<link name="base"/>' + "".join(wheels))
     parameters = {"type": "diff_drive_controller/DiffDriveController"}
-    for side in ("left", "right"):
+    for side in sides:
         names = [f"{name}_joint" for name in places if name.startswith(side)]
         parameters[f"{side}_wheel_names"] = f"[{', '.join(names)}]"
     lines = [f"    {key}: {value}\n" for key, value in parameters.items()]
     lines += [f"    {line}\n" for line in settings.split("; ") if line]
     write("cart/config/drive.yaml", ("drive:\n  ros__parameters:\n" + "".join(lines)).encode())
-    return [finding.message for finding in lint(model, select=("K970",))]
+    return [finding.message for finding in lint(model, select=codes)]
 
 
 @pytest.mark.parametrize(
@@ -71,6 +81,25 @@ def test_a_left_wheel_on_the_right_side(left: str, right: str, axis: str, is_swa
     messages = found(write, "", left, right, axis)
     assert len(messages) == is_swapped
     assert all("is on the right side" in message for message in messages)
+
+
+def test_of_exchanged_lists_of_wheels_the_first_is_reported(write) -> None:
+    places = {"left": "0 -0.2 0", "right": "0 0.2 0", "more": 1}
+    (message,) = found(write, "", **places)
+    assert message == "left wheel `left_joint` of controller `drive` is on the right side, at y = -0.2 m"
+    (message,) = found(write, "", **places, sides=("right", "left"))
+    assert message == "right wheel `right_joint` of controller `drive` is on the left side, at y = 0.2 m"
+
+
+def test_the_ros1_name_of_a_list_of_wheels() -> None:
+    place = Position("drive.yaml", 3, 5)
+    old = Settings("left_wheel", Position("drive.yaml", 3, 17), "left_joint", key=place)
+    right = Settings("right_wheel_names", Position("drive.yaml", 4, 24), "right_joint")
+    drive = Settings("drive", place, children={each.name: each for each in (old, right)})
+    message = "`drive` has no `left_wheel_names`, but `left_wheel`, its name in ROS 1"
+    with pytest.raises(DescriptionError, match=message) as raised:
+        drive.text("left_wheel_names")
+    assert raised.value.position == place
 
 
 def test_two_wheels_at_the_same_place(write) -> None:

@@ -95,6 +95,7 @@ MISTAKES = [
         "joint `left_wheel_joint`, which is in",
     ),
     ("moveit_controllers.yaml", "j1, j2, j3]", "j1]", "M112", 6, "`joints` lacks `j2`, `j3` of controller `mover`"),
+    ("moveit_controllers.yaml", "[mover, gripper]", "[gripper]", "M108", 2, "`mover` is not in `controller_names`"),
     ("moveit_controllers.yaml", "ParallelG", "G", "M112", 8, "has the action ParallelGripperCommand"),
     (
         "joint_limits.yaml",
@@ -141,7 +142,7 @@ def findings(folder, name, old, new, count=-1):
         assert not is_changed or old in text, old
         (folder / file).write_text(text.replace(old, new, count) if is_changed else text)
     found = lint(folder, target="ros2")
-    return [one for one in found if one.code in ("M104", "M105", "M106", "M107", "M109", "M112")]
+    return [one for one in found if one.code in ("M104", "M105", "M106", "M107", "M108", "M109", "M112")]
 
 
 @pytest.mark.parametrize(("name", "old", "new"), RIGHT)

@@ -218,6 +218,14 @@ BAD = [
     ("filter", "imu0_differential", "imu0_diferential", "K971", 9, "did you mean `imu0_differential`?"),
     ("navigation", "\ncontroller_server", "\ncontoller_server", "L104", 1, "did you mean `controller_server`?"),
     ("navigation", "    FollowPath:", "    Followpath:", "K971", 9, "section `Followpath` is not in"),
+    (
+        "navigation",
+        '["precise"]\n    precise:',
+        '["general_goal_checker"]\n    goal_checker:',
+        "K971",
+        5,
+        "lists `general_goal_checker`, which has no section; did you mean `goal_checker`?",
+    ),
     ("navigation", '["precise"]', '["exact"]', "K971", 5, "`goal_checker_plugins` lists `exact`, which has no section"),
     (
         "navigation",

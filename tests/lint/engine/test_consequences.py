@@ -23,6 +23,7 @@ CASES = {
         finding("E007", "unexpected text"),
         True,
     ),
+    "flag of a publisher": (finding("K971", "`flag` is false, but true"), finding("K985", "flag is false"), True),
     "other line": (
         finding("E014", "<mass> has no attribute `value`", kind="attribute"),
         finding("E007", "text", 2),

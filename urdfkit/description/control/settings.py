@@ -152,6 +152,10 @@ class Settings:
         return found
 
     def _missing(self, path: str) -> DescriptionError:
+        old = self.children.get(path.removesuffix("_names")) if path.endswith("_names") else None
+        if old is not None:
+            hint = f", but `{old.name}`, its name in ROS 1"
+            return DescriptionError(f"`{self.name}` has no `{path}`" + hint, position=old.place)
         hint = did_you_mean(path, self.children) or ", which is required"
         return DescriptionError(f"`{self.name}` has no `{path}`" + hint, position=self.place)
 

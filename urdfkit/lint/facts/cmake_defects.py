@@ -148,7 +148,15 @@ def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
         near = nearest(tools[0], [name for name in packages if name not in names()], cutoff=0.85)
         if near is None and not any("cmake" in name and name not in names() for name in packages):
             message = f"{command.name}() needs find_package({tools[0]} REQUIRED)"
-            yield BuildDefect(source, command.start, command.name, message, kind="find_package")
+            # The other build tool stands for the missing one, unless its own command is called too.
+            of_other = [
+                (start, name)
+                for name, start in found
+                for other, build_tools in _TOOLS.items()
+                if name == build_tools[0] and other not in defined
+            ]
+            start, text = of_other[0] if of_other else (command.start, command.name)
+            yield BuildDefect(source, start, text, message, kind="find_package")
         elif near is not None and misspelling_of(near, ()) is None:  # the rule reports other misspelt packages
             message = f"unknown package `{near}`" + Suggestion(tools[0], near)
             yield BuildDefect(source, dict(found)[near], near, message)

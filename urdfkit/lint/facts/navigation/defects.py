@@ -187,6 +187,8 @@ def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 def _plugins(node: Node) -> Defects:
     """Yield plugins and observation sources that are listed without a section."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
     defined = {key.text: (key, value) for key, value in node.entries if value.kind == "group"}
     for key, value in node.entries:
         if key.text == "observation_sources" and "," in value.text:
@@ -214,8 +216,10 @@ def _plugins(node: Node) -> Defects:
             )
             is_needed = word not in DEFAULTS or (names not in DEFAULT_LISTS and len(others) > 1)
             if word in DEFAULTS and near is not None:
-                message = f"section `{near}` is not in `{key.text}`" + Suggestion(word, near)
-                yield defined[near][0], message
+                if is_slip(near.lower(), word.lower()):
+                    yield defined[near][0], f"section `{near}` is not in `{key.text}`" + Suggestion(word, near)
+                else:
+                    yield item, f"`{key.text}` lists `{word}`, which has no section" + Suggestion(near, word)
             elif near is not None or (is_needed and key.text != "observation_sources" and others):
                 what = "topic" if key.text == "observation_sources" else "plugin"
                 yield (

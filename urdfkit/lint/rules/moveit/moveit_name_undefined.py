@@ -87,7 +87,7 @@ class MoveitNameUndefined(RobotRule):
                     continue
                 for node in unlisted:
                     message = f"controller `{node.text}` is not in `controller_names`; MoveIt does not use it"
-                    yield self._at(source, node, message, ())
+                    yield self._at(source, names[-1] if names and len(unlisted) == 1 else node, message, ())
 
     def _joint(self, source: Source, node: Node, model: Model, others: object) -> Findings:
         from urdfkit.lint.fix_builders import meant

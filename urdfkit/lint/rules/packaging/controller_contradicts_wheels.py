@@ -102,9 +102,12 @@ class ControllerContradictsWheels(RobotRule):
         # If all axes point right, the front of the robot is at negative x.
         is_reversed = all(wheel.axis[1] < -0.7 for _, wheel in (*left, *right))
         if lateral < 0.0 and abs(lateral) > abs(longitudinal) and not is_reversed:
-            position = f"y = {first.place[1]:g} m"
-            message = f"left wheel `{node.text}` of controller `{controller.name}` is on the right side, at {position}"
-            yield self._at(source, node, message, node.text, "swap the wheel names")
+            # Of lists that are exchanged, the first one is reported.
+            sides = (("left", node, first, "right"), ("right", right[0][0], other, "left"))
+            side, wrong, wheel, place = min(sides, key=lambda each: each[1].line if len(left) > 1 else 0)
+            message = f"{side} wheel `{wrong.text}` of controller `{controller.name}` is on the {place} side"
+            message += f", at y = {wheel.place[1]:g} m"
+            yield self._at(source, wrong, message, wrong.text, "swap the wheel names")
         if first.joint is not other.joint and first.place == other.place and first.place[1] != 0.0:
             position = f"{first.place[0]:g} {first.place[1]:g} {first.place[2]:g} m"
             message = f"wheels `{node.text}` and `{right[0][0].text}` are at the same place, {position}"

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.packages.related_files import name_in
+from urdfkit.description.xml.source import Span
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -13,8 +14,8 @@ class NotInstalled(RobotRule):
 
     ## What it does
     Checks ``package://…`` and ``$(find …)`` references for existing folders of the robot's own package that neither
-    CMakeLists.txt nor setup.py mentions. For a catkin package the finding is a note, because files that are not
-    installed are still found in the devel space.
+    CMakeLists.txt nor setup.py mentions. The finding is at the first ``install(DIRECTORY …)`` if there is one. For a
+    catkin package it is a note, because files that are not installed are still found in the devel space.
 
     ## Why is this bad?
     After installation, the share folder of the package lacks these meshes or included files.
@@ -60,12 +61,28 @@ class NotInstalled(RobotRule):
                 word = rf"(?<![\w-]){re.escape(folder)}(?![\w-])"
                 if not install_rules or re.search(rf"{word}|DIRECTORY\s+(?:\.|\$)|GLOB|foreach", install_rules):
                     continue
+                place = _install_command(package, model)
                 yield self.at_span(
                     source.span(match.start(), match.end()),
                     f"folder `{folder}` of this package is not installed",
                     severity="warning" if "ament" in install_rules else "note",
                     help="add it to install(DIRECTORY …) in CMakeLists.txt, or to data_files in setup.py",
+                    other=place,
+                    is_other_wrong=place is not None,
+                    cause=f"folder {folder}",
                 )
+
+
+def _install_command(package: Path, model: Model) -> Span | None:
+    """Return the word DIRECTORY of the first install() of folders in CMakeLists.txt; None without one."""
+    from urdfkit.lint.facts.build_files import build_files, commands
+
+    cmake = next((files.cmake for files in build_files(model) if files.folder == package), None)
+    for command in commands(cmake) if cmake is not None else ():
+        word, start = command.words[0] if command.words else ("", 0)
+        if cmake is not None and command.name == "install" and word == "DIRECTORY":
+            return cmake.span(start, start + len(word))
+    return None
 
 
 def _install_rules(package: Path) -> str:
