@@ -65,7 +65,7 @@ def test_choices_however_they_are_written(robot_template):
     assert robot_template.question("license").accept("mit") == "MIT"
     assert robot_template.question("sensor").accept("Lidar and camera") == "lidar camera"
     assert robot_template.question("sensor").accept("none") == ""
-    with pytest.raises(UsageError, match="given twice"):
+    with pytest.raises(UsageError, match="is repeated"):
         robot_template.question("sensor").accept("lidar, Lidar")
 
 
