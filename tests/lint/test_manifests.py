@@ -11,7 +11,7 @@ GOOD = "<package><name>p</name><version>0.0.1</version></package>"
 
 @pytest.mark.parametrize(
     ("text", "line"),
-    [("<package>\n<name>p</name>\n<version>0.0.1\n</package>\n", 4), ("", 1), ("  \n", 1), ("nothing", 1)],
+    [("<package>\n<name>p</name>\n<version>0.0.1\n</package>\n", 3), ("", 1), ("  \n", 1), ("nothing", 1)],
 )
 def test_a_manifest_that_is_no_xml_is_told_in_its_place(tmp_path, monkeypatch, text, line):
     monkeypatch.chdir(tmp_path)

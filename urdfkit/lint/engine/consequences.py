@@ -212,6 +212,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T207", ""), "robot", ("M104", "joint")),
     (("T207", ""), "robot", ("M105", "")),
     (("T207", ""), "robot", ("M108", "joint")),
+    (("T207", ""), "robot", ("M109", "")),
     (("T207", ""), "robot", ("Z802", "undefined")),
     (("Z817", ""), "robot", ("K969", "topic")),
     (("J405", ""), "name", ("J420", "")),
