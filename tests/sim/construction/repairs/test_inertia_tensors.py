@@ -87,7 +87,7 @@ def test_the_message_has_the_moments_before_and_after(tmp_path: Path) -> None:
     assert repair is not None
     assert repair.message == (
         "the inertia of link `a` is impossible: of its principal moments 0.5, 0.5 and 2 kg·m² the largest exceeds the "
-        "sum of the others, which no distribution of mass has; simulated with 1, 1, 2 kg·m² (changed by 33.3 %)"
+        "sum of the others, which is physically impossible; simulated with 1, 1, 2 kg·m² (changed by 33.3 %)"
     )
     assert possible(*link(tmp_path, -0.1))[1].code == "I502"
     assert possible(*link(tmp_path, 2.0, mass=-1.0))[1] is None

@@ -185,7 +185,7 @@ def test_links_that_carry_the_only_masses_have_their_mean(arm: Repaired) -> None
     robot, found = arm("", "", INERTIAL.format(x=0.1, m=0.02, i=1e-5), INERTIAL.format(x=0.1, m=0.04, i=1e-5))
     assert values(robot, "l0")[0] == values(robot, "l1")[0] == pytest.approx((5.0 + 0.02 + 0.04) / 3.0)
     assert values(robot, "l2")[0] == 0.02
-    assert all("the mean of the other links" in repair.message for repair in found)
+    assert all("the mean mass of the other links" in repair.message for repair in found)
 
 
 def test_a_link_at_the_end_of_one_heavy_link_has_the_least_mass(arm: Repaired) -> None:

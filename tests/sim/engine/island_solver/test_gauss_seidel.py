@@ -169,5 +169,5 @@ def test_a_robot_that_lies_on_hundreds_of_points_lies(tmp_path):
 
 
 def test_a_world_that_takes_more_memory_than_there_is_is_refused_in_a_line():
-    with pytest.raises(SimulationError, match=r"a world of 1 robots .* takes 1.6e\+06 GB"):
+    with pytest.raises(SimulationError, match=r"a world of 1 robots .* needs 1.6e\+06 GB"):
         allocate([1, 6, 7, 0, 0, 0, 0, 1, 0, 1, 36, 6, 10**14, 0, 0, 0, 0, 0], width=6)
