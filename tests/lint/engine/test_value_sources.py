@@ -98,3 +98,21 @@ def test_a_wrong_literal_is_reported_where_it_is_written(change, expected, tmp_p
 def test_a_wrong_formula_is_reported_in_the_macro(tmp_path, monkeypatch):
     robot = ROBOT.replace('lower="${-turn}"', 'lower="${turn + 1}"')
     assert {place[:3] for place in found_in(tmp_path, monkeypatch, robot)} == {("J405", "r.urdf.xacro", 20)}
+
+
+@pytest.mark.parametrize(
+    ("definitions", "wrong"),
+    [
+        ('<xacro:property name="m" default="1"/><xacro:property name="m" value="-2"/>', 'value="-2"'),
+        ('<xacro:property name="m"><mass/></xacro:property><xacro:property name="m" value="-2"/>', 'value="-2"'),
+        (
+            '<xacro:arg default="3"/><xacro:arg name="n" default="-2"/><xacro:property name="m" value="$(arg n)"/>',
+            'default="-2"',
+        ),
+    ],
+    ids=["default", "block", "argument without a name"],
+)
+def test_definitions_without_a_value_or_name_are_skipped(definitions, wrong, tmp_path, monkeypatch):
+    robot = ROBOT.replace("<mass value=\"${size['mass']}\"/>", f'\n{definitions}\n<mass value="${{m}}"/>')
+    place = ("I501", "r.urdf.xacro", 11, definitions.index(wrong) + 1)
+    assert found_in(tmp_path, monkeypatch, robot) == [place]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cached_property
 from pathlib import Path
 
 from urdfkit.description.xml.reader import read_source, shown_path
@@ -203,17 +204,19 @@ class ValueSources:
         """Return the only call of a macro that defines a property for its callers."""
         if macro is None or "name" not in macro.attributes:
             return ()
-        name = macro.attributes["name"].value
-        found = {each.origin.expansions for each in self._model.elements if each.origin.expansions}
-        chains = {
-            chain[first:]
-            for chain in found
-            for first, call in enumerate(chain)
-            if call.macro.rpartition(".")[2] == name
-        }
+        chains = self._chains.get(macro.attributes["name"].value, ())
         if len(chains) != 1:
             raise UnresolvedError
         return next(iter(chains))
+
+    @cached_property
+    def _chains(self) -> dict[str, set[Calls]]:
+        """Macro → the calls around its elements, from its own call outwards."""
+        found: dict[str, set[Calls]] = {}
+        for chain in {each.origin.expansions for each in self._model.elements if each.origin.expansions}:
+            for first, call in enumerate(chain):
+                found.setdefault(call.macro.rpartition(".")[2], set()).add(chain[first:])
+        return found
 
     def _default(self, name: str, body: Tag, source: Source) -> tuple[str, Span, bool] | None:
         """Return the default of a parameter, its place, and whether a property of the caller replaces it."""
@@ -230,12 +233,22 @@ class ValueSources:
 
     def _argument(self, name: str) -> ValueSource:
         """Return the default of a xacro argument."""
+        if name not in self._arguments:
+            raise UnresolvedError
+        return self._arguments[name]
+
+    @cached_property
+    def _arguments(self) -> dict[str, ValueSource]:
+        """The first default of each xacro argument."""
+        found: dict[str, ValueSource] = {}
         for file in self._model.expanded.sources:
             document = self._model.document(file)
             for tag in document.walk():
-                if tag.name == "xacro:arg" and "default" in tag.attributes and tag.attributes["name"].value == name:
-                    return ValueSource(document.span_of(tag, "default"), tag.attributes["default"].value)
-        raise UnresolvedError
+                written = tag.attributes if tag.name == "xacro:arg" else {}
+                if "name" in written and "default" in written:
+                    source = ValueSource(document.span_of(tag, "default"), written["default"].value)
+                    found.setdefault(written["name"].value, source)
+        return found
 
     def _in_yaml(self, file: ast.expr, keys: Keys) -> ValueSource:
         """Return the value of some keys in the YAML file that an expression names."""
@@ -288,7 +301,7 @@ def _one(tags: list[Tag], source: Source, calls: Calls) -> tuple[str, Span, Call
     values = {tag.attributes["value"].value for tag in tags if "value" in tag.attributes}
     if len(values) != 1:
         raise UnresolvedError
-    written = tags[0].attributes["value"]
+    written = next(found for tag in tags if (found := tag.attributes.get("value")) is not None)
     return written.value, source.span(written.start, written.end), calls
 
 
