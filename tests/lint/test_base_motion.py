@@ -123,6 +123,24 @@ def test_two_drives_of_different_kinds_decide_nothing(tmp_path):
     assert findings(tmp_path, SIDEWAYS | second, "nav2.yaml", "model: Omni", "model: DiffDrive") == []
 
 
+@pytest.mark.parametrize(("library", "count"), [("gazebo_ros_planar_move", 0), ("gazebo_ros_diff_drive", 2)])
+def test_another_robot_of_the_package_with_the_other_kind_of_drive(tmp_path, library, count):
+    plugin = f'<gazebo><plugin name="move" filename="lib{library}.so"/></gazebo></robot>'
+    other = {"raft.urdf": ROBOT.replace("barge", "raft").replace("</robot>", plugin)}
+    found = findings(tmp_path, FORWARDS | other | {"nav2.yaml": NAVIGATION})
+    assert [one.code for one in found] == ["K982"] * count
+
+
+@pytest.mark.parametrize(("file", "codes"), [("nav2.yaml", []), ("none.yaml", ["K982"])])
+def test_parameters_that_only_another_robot_loads_contradict_nothing(tmp_path, file, codes):
+    loads = '<gazebo><plugin name="c" filename="libgazebo_ros2_control.so"><parameters>$(find barge)/{}</parameters>'
+    plugins = {name: f"{loads.format(name)}</plugin></gazebo></robot>" for name in ("control.yaml", file)}
+    raft = {"raft.urdf": ROBOT.replace("barge", "raft").replace("</robot>", plugins[file])}
+    findings(tmp_path, FORWARDS | raft, "nav2.yaml", "model: DiffDrive", "model: Omni")
+    (tmp_path / "barge.urdf").write_text(ROBOT.replace("</robot>", plugins["control.yaml"]))
+    assert [one.code for one in lint(tmp_path / "barge.urdf") if one.code == "K982"] == codes
+
+
 WHEEL = """<link name="{name}"/><joint name="{name}_joint" type="continuous"><parent link="base_link"/>
   <child link="{name}"/><origin xyz="{xyz}"/><axis xyz="0 1 0"/></joint>
   <gazebo reference="{name}"><collision><surface><friction><ode><mu>{mu}</mu><mu2>{mu2}</mu2>

@@ -42,8 +42,7 @@ class NeighbouringDescriptions:
 
     def mention(self, text: str) -> bool:
         """Return whether one of them that the robot does not include contains a text."""
-        own = {str(Path(file).absolute()) for file in self._expanded.sources}
-        return any(text in each for path, each in self._texts.items() if path not in own)
+        return any(text in each for path, each in self._texts.items() if path not in self._own)
 
     @cached_property
     def unresolved_package(self) -> str:
@@ -58,8 +57,7 @@ class NeighbouringDescriptions:
 
     def _names(self, tag: str) -> list[str]:
         """Return patterns of the names of links or joints."""
-        texts = self._texts
-        own = {str(Path(file).absolute()): written.text for file, written in self._expanded.sources.items()}
+        texts, own = self._texts, self._own
         is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
         texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
         every = "\n".join(texts.values())
@@ -84,6 +82,11 @@ class NeighbouringDescriptions:
             name, value = ((each[1] or each[2] or "") if each is not None else _UNKNOWN for each in found)
             properties.setdefault(name, []).append((value, macro))
         return [_pattern(*name, calls, properties) for name in dict.fromkeys(names)]
+
+    @cached_property
+    def _own(self) -> dict[str, str]:
+        """The files that the robot includes: path → text."""
+        return {str(Path(file).absolute()): written.text for file, written in self._expanded.sources.items()}
 
     @cached_property
     def _texts(self) -> dict[str, str]:

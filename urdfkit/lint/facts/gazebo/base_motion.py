@@ -9,10 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from urdfkit.description.plugins.lookup import ALL_SPECS
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
-from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of, yamls, yamls_of_robot
 from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 from urdfkit.lint.model.model import Model
 
@@ -32,7 +33,11 @@ _PARAMETER = r"motion_model|robot_model_type|odom_model_type|max_vel_y|vy_max|ma
 
 
 def moves_sideways(model: Model) -> bool | None:
-    """Return whether the drive of the robot moves it sideways; None if unknown."""
+    """Return whether the drive of the robot moves it sideways; None if unknown.
+
+    It is unknown in packages that have drives of both kinds, since either robot may load a parameter file. Therefore
+    files of controllers that only another robot loads are read too.
+    """
     found = {
         value
         for source in yamls(model)
@@ -43,7 +48,13 @@ def moves_sideways(model: Model) -> bool | None:
     }
     kinds = {spec.kind for plugin, _, _ in plugins(model.robot) for spec in specs(plugin)}
     found |= {value for names, value in ((_SIDEWAYS, True), (_FORWARDS, False)) if not kinds.isdisjoint(names)}
-    return found.pop() if len(found) == 1 else None
+    if len(found) != 1:
+        return None
+    base = found.pop()
+    others = [spec for spec in ALL_SPECS if spec.kind in (_FORWARDS if base else _SIDEWAYS)]
+    near = model.neighbouring_descriptions
+    names = {name for spec in others for name in (*spec.filenames, *spec.class_names)}
+    return None if any(near.mention(name) for name in names) else base
 
 
 def contradictions(model: Model) -> Defects:
@@ -51,7 +62,7 @@ def contradictions(model: Model) -> Defects:
 
     A base that can move sideways may be used without that: nothing is yielded unless another parameter allows it.
     """
-    found = [(source, *each) for source in yamls(model) for each in _assumptions(source)]
+    found = [(source, *each) for source in yamls_of_robot(model) for each in _assumptions(source)]
     base = moves_sideways(model) if found else None
     if base is None or has_other_wheels(model):
         yield from _between_nodes(found)
