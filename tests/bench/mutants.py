@@ -266,9 +266,11 @@ def is_found(mutant: Mutant) -> tuple[bool, list[str]]:
     changed = text[: mutant.start] + mutant.text + text[mutant.end :]
     if mutant.code == "J403":
         line = last = text.count("\n", 0, text.rfind("<joint", 0, mutant.start)) + 1
+    names = (f"of line {line} ", f"{mutant.file}:{line}")
+    if mutant.code == "E001":  # the start tag whose end tag is missing
+        line = text.count("\n", 0, text.rfind("<link", 0, mutant.start)) + 1
     findings = run([Entry(entry)], Options(texts={str(path): changed})).findings
     serious = [finding for finding in findings if finding.severity != "note"]
-    names = (f"of line {_opened(text, mutant, line)} ", f"{mutant.file}:{line}")
     near = [
         finding.code
         for finding in serious
@@ -276,13 +278,6 @@ def is_found(mutant: Mutant) -> tuple[bool, list[str]]:
         or any(name in f"{finding.message} {finding.help or ''} " for name in names)
     ]
     return bool(near), near or sorted({finding.code for finding in serious})
-
-
-def _opened(text: str, mutant: Mutant, line: int) -> int:
-    """Return the line of the start tag whose end tag was taken away."""
-    if mutant.code != "E001":
-        return line
-    return text.count("\n", 0, text.rfind("<link", 0, mutant.start)) + 1
 
 
 def main() -> int:

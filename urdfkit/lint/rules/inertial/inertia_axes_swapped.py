@@ -102,7 +102,7 @@ def _is_of_swapped_cylinder(link: Link, mass: float, actual: tuple[float, ...], 
     ]
     axis = pairs.index(min(pairs))
     swapped = tuple(along if each == axis else across for each in range(3))
-    return max(abs(a - b) / b for a, b in zip(actual, swapped, strict=True)) < _EQUAL
+    return all(abs(a - b) < _EQUAL * b for a, b in zip(actual, swapped, strict=True))
 
 
 def _difference(first: tuple[float, ...], second: tuple[float, ...]) -> float:
