@@ -105,7 +105,17 @@ def test_a_row_of_a_covariance_in_ros1(tmp_path):
         (tmp_path / name).write_text(text)
     [found] = [one for one in lint(tmp_path) if one.file.endswith(".yaml")]
     assert (found.code, found.line) == ("K971", 8)
-    assert "has 224 values" in found.message
+    assert "has 224 values; 225 are needed" in found.message
+
+
+@pytest.mark.parametrize(("count", "is_complete"), [(15, False), (225, True)])
+def test_a_covariance_in_ros1_is_a_full_matrix(tmp_path, count, is_complete):
+    frames = "world_frame: odom\nodom_frame: odom\nbase_link_frame: base_link\n"
+    values = f"initial_estimate_covariance: [{', '.join(['0.0'] * count)}]\n"
+    for name, text in {"package.xml": MANIFEST, "barge.urdf": ROBOT, "ekf.yaml": frames + values}.items():
+        (tmp_path / name).write_text(text)
+    found = [(one.code, one.line) for one in lint(tmp_path) if one.file.endswith(".yaml")]
+    assert found == ([] if is_complete else [("K971", 4)])
 
 
 def test_two_drives_of_different_kinds_decide_nothing(tmp_path):
@@ -200,6 +210,23 @@ def test_limits_of_an_axis_along_which_a_differential_drive_does_not_move(tmp_pa
     [found] = findings(tmp_path, limits, "control.yaml", "{x: {max", "{y: {max")
     assert (found.code, found.line) == ("K971", 5)
     assert "does not read `y` of `linear`; write `x`" in found.message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("linear.x", "linear.y", "does not read `linear.y.max_velocity`; write `linear.x.max_velocity`"),
+        ("angular.z", "angular.x", "does not read `angular.x.max_velocity`; write `angular.z.max_velocity`"),
+        ("linear.x.max_velocity: 1.0", "linear: {'': 1.0}", None),
+    ],
+)
+def test_limits_of_an_axis_in_names_with_dots(tmp_path, old, new, message):
+    values = "false, linear.x.max_velocity: 1.0, angular.z.max_velocity: 1.0}"
+    limits = FORWARDS | {"control.yaml": DIFFERENTIAL.replace("false}", values)}
+    found = [
+        one.message for one in findings(tmp_path, limits, "control.yaml", old, new) if "does not read" in one.message
+    ]
+    assert [message in one if message else one for one in found] == ([True] if message else [])
 
 
 SCANNER = """<robot name="barge"><link name="base_link"/><gazebo reference="base_link"><sensor name="lidar" type="ray">

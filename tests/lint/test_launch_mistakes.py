@@ -700,6 +700,57 @@ def test_code_names_parts_of_the_moveit_configuration(tmp_path, part, wrong, lin
     assert found(cart, "M108") == expected.get(part, [])
 
 
+RIGHT_CODE = {
+    "scripts/plan.py": """import moveit_commander
+
+arm = moveit_commander.MoveGroupCommander("arm")
+arm.remember_joint_values("pre-grasp")
+arm.go("pre-grasp", True)
+arm.plan("pre-grasp", 0.1)
+arm.set_named_target("pre-grasp")
+""",
+    "src/plan.cpp": """#include <moveit/move_group_interface/move_group_interface.h>
+using moveit::planning_interface::MoveGroupInterface;
+/* MoveGroupInterface arm(node, "old");
+   arm.setNamedTarget("old"); */
+void go(MoveGroupInterface& arm, const std::string& state = "home");
+MoveGroupInterface make(const rclcpp::Node::SharedPtr& node, const std::string& state = "home");
+void plan(rclcpp::Node::SharedPtr node) {
+  MoveGroupInterface arm(node, MoveGroupInterface::Options(PLANNING_GROUP, "robot_description", ns));
+  MoveGroupInterface::Options options("arm", "robot_description");
+  MoveGroupInterface left(node, "left_" + part);
+  arm.rememberJointValues("pre-grasp");
+  arm.setNamedTarget("pre-grasp");
+}
+""",
+}
+CALLS = [
+    'MoveGroupInterface arm("arms");',
+    'MoveGroupInterface arm{node, "arms"};',
+    'MoveGroupInterface arm(shared_from_this(), "arms", buffer);',
+    'auto arm = std::make_shared<moveit::planning_interface::MoveGroupInterface>(node, "arms");',
+    'MoveGroupInterface arm(node, MoveGroupInterface::Options("arms", "robot_description"));',
+    '/* a group */ MoveGroupInterface arm(node, /* its name */ "arms");  // "arm"',
+    'log("https://moveit.ai"); MoveGroupInterface arm(node, "arms");',
+]
+
+
+def test_other_strings_of_code_that_plans_are_no_names(tmp_path):
+    cart = package(tmp_path / "cart", "ament_cmake")
+    for name, text in {"cart.urdf": ARM, "config/cart.srdf": SEMANTICS, **RIGHT_CODE}.items():
+        write(cart / name, text)
+    assert found(cart, "M108") == []
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_a_group_is_the_first_argument_or_follows_the_node(tmp_path, call):
+    cart = package(tmp_path / "cart", "ament_cmake")
+    code = {"src/plan.cpp": f"void plan() {{\n  {call}\n}}\n"}
+    for name, text in {"cart.urdf": ARM, "config/cart.srdf": SEMANTICS, **code}.items():
+        write(cart / name, text)
+    assert found(cart, "M108") == [("plan.cpp", 2, "group `arms` does not exist in the SRDF; did you mean `arm`?")]
+
+
 COMPONENT = """from launch import LaunchDescription
 from launch_ros.actions import ComposableNodeContainer
 from launch_ros.descriptions import ComposableNode
@@ -821,3 +872,24 @@ def test_the_world_of_a_spawner_exists(tmp_path, world, count):
     node = f'<node pkg="ros_gz_sim" exec="create" args="{arguments}"/>'
     write(cart / "launch/cart.launch.xml", f"<launch>\n{node}\n</launch>\n")
     assert len(found(cart, "K969")) == count
+
+
+def test_the_code_is_read_once_for_all_remapped_descriptions(tmp_path, monkeypatch):
+    from urdfkit.lint.facts.topics import words
+
+    cart, counts = package(tmp_path / "cart", "ament_cmake", "robot_state_publisher"), []
+    reads = list[Path]()
+    monkeypatch.setattr(
+        words, "code_texts", lambda *given, real=words.code_texts: reads.append(given[0]) or real(*given)
+    )
+    node = (
+        '<node pkg="robot_state_publisher" exec="robot_state_publisher" namespace="r{0}">'
+        '<param name="robot_description" value="$(command \'xacro cart.urdf\')"/>'
+        '<remap from="robot_description" to="model_{0}"/></node>\n'
+    )
+    for count in (1, 20):
+        reads.clear()
+        write(cart / "launch/c.launch.xml", f"<launch>\n{''.join(map(node.format, range(count)))}</launch>\n")
+        assert sum("is without a description" in row[2] for row in found(cart, "K980")) == count
+        counts.append(len(reads))
+    assert counts[0] == counts[1]

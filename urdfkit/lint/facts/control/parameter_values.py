@@ -253,10 +253,12 @@ def _without_axis(one: ControllerSettings) -> Defects:
     """Yield the limits of axes along which a differential drive does not move."""
     for name, axis in (("linear", "x"), ("angular", "z")) if one.kind.startswith("diff_drive_controller/") else ():
         for key, value in one.group.entries:
-            wrong = [inner for inner, _ in value.entries if key.text == name and inner.text in "xyz".replace(axis, "")]
-            wrong += [key] if re.fullmatch(rf"{name}\.[xyz]\..*", key.text) and f".{axis}." not in key.text else []
-            for inner in wrong:
+            others = {*"xyz"} - {axis}
+            for inner in (inner for inner, _ in value.entries if key.text == name and inner.text in others):
                 yield inner, f"controller `{one.name}` does not read `{inner.text}` of `{name}`; write `{axis}`"
+            first, _, inner_name = key.text.partition(".")
+            if first == name and inner_name[:1] in others and inner_name[1:2] in ("", "."):
+                yield key, f"controller `{one.name}` does not read `{key.text}`; write `{name}.{axis}{inner_name[1:]}`"
 
 
 def _without_gains(one: ControllerSettings) -> Defects:

@@ -35,17 +35,25 @@ _FIRST = {
 """Python function → kind of the name that is its first argument."""
 
 _JOINTS = ("go", "set_joint_value_target", "plan")
+"""Python functions that accept a dictionary with names of joints; the second one also the name of a joint."""
+
 _WORDS = {"configuration_name": _STATE, "group_name": _GROUP}
-_REMEMBERED = r"remember_?[jJ]oint_?[vV]alues\s*\(\s*[\"'](\w+)[\"']"
+_REMEMBERED = r"remember_?[jJ]oint_?[vV]alues\s*\(\s*[\"']([^\"'\n]+)[\"']"
+_NOT_IN_CODE = r"(?s)\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'|(//[^\n]*|/\*.*?(?:\*/|\Z))"
+"""Matches a string, a character or, as its group, a comment of C++."""
 
 _IN_CPP = {
-    r"\bMoveGroupInterface\b[^;\"{}]{0,80}\"([^\"]+)\"": _GROUP,
-    r"\bgetJointModelGroup\s*\(\s*\"([^\"]+)\"": _GROUP,
-    r"\b(?:setNamedTarget|getNamedTargetValues)\s*\(\s*\"([^\"]+)\"": _STATE,
-    r"\bsetEndEffectorLink\s*\(\s*\"([^\"]+)\"": _LINK,
+    r"\bMoveGroupInterface(?:::Options)?\s*>?\s*\w*\s*[({]\s*\"([^\"]+)\"\s*[,)}]": _GROUP,
+    r"\bMoveGroupInterface\s*>?\s*\w*\s*[({][^,;\"(){}]+(?:\(\s*\))?\s*,\s*\"([^\"]+)\"\s*[,)}]": _GROUP,
+    r"\bgetJointModelGroup\s*\(\s*\"([^\"]+)\"\s*\)": _GROUP,
+    r"\b(?:setNamedTarget|getNamedTargetValues)\s*\(\s*\"([^\"]+)\"\s*\)": _STATE,
+    r"\bsetEndEffectorLink\s*\(\s*\"([^\"]+)\"\s*\)": _LINK,
     r"\bsetJointValueTarget\s*\(\s*\"([^\"]+)\"\s*,": _JOINT,
 }
-"""Pattern of a call in C++ → kind of the name in it."""
+"""Pattern of a call in C++ → kind of the name in it.
+
+A group is the first argument, or the second after the node.
+"""
 
 
 def undefined_in_code(model: Model) -> Iterator[tuple[Source, Named, str]]:
@@ -115,7 +123,7 @@ def _in_python(source: Source) -> Iterator[tuple[str, Named]]:
             value = reader.assigned.get(first.id) if isinstance(first, ast.Name) else first
             if isinstance(value, ast.Dict):
                 found += [(_JOINT, key) for key in value.keys if key is not None]
-            elif isinstance(value, ast.Constant) and len(call.args) > 1:
+            elif isinstance(value, ast.Constant) and len(call.args) > 1 and function == "set_joint_value_target":
                 found.append((_JOINT, value))
         for kind, node in found:
             value = (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
@@ -124,7 +132,7 @@ def _in_python(source: Source) -> Iterator[tuple[str, Named]]:
 
 
 def _in_cpp(source: Source) -> Iterator[tuple[str, Named]]:
-    text = re.sub(r"//[^\n]*", lambda at: " " * len(at[0]), source.text)
+    text = re.sub(_NOT_IN_CODE, lambda at: " " * len(at[0]) if at[1] else at[0], source.text)
     for pattern, kind in _IN_CPP.items():
         for at in re.finditer(pattern, text):
             yield kind, Named(at[1], at.start(1))

@@ -75,14 +75,14 @@ _WIDTH = 15
 
 
 def wrong_covariances(group: Node) -> Iterator[tuple[Node, str]]:
-    """Yield the covariances of a filter that are neither a matrix nor a diagonal, at the only odd row.
+    """Yield the covariances of a filter that are not a full matrix, at the only odd row.
 
-    Only for ROS 1; the parameters of ROS 2 nodes have a schema.
+    Only for ROS 1, which reads no diagonals (ros_filter.cpp, Noetic); the parameters of ROS 2 nodes have a schema.
     """
     for key, value in group.entries:
         count = len(value.items)
-        if key.text in _COVARIANCES and count and count not in (_WIDTH, _WIDTH * _WIDTH):
+        if key.text in _COVARIANCES and count and count != _WIDTH * _WIDTH:
             rows = Counter(item.line for item in value.items)
             odd = [line for line, length in rows.items() if length != _WIDTH]
             place = next((item for item in value.items if [item.line] == odd), key)
-            yield place, f"`{key.text}` has {count} values; 15 or 225 are needed"
+            yield place, f"`{key.text}` has {count} values; {_WIDTH * _WIDTH} are needed"

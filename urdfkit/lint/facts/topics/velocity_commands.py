@@ -85,6 +85,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     inputs, files = set(_mux_topics(model, ("topics", "locks"))), parameter_files(model)
     seen = set[tuple[str, int]]()
     nodes = launched_nodes(model)
+    yield from _undescribed(nodes, model)
     shared = {(node.source.file, old.start) for node in nodes for old, _ in node.remappings if _is_own(node, old)}
     for node in nodes:
         for old, new in node.remappings:
@@ -100,7 +101,6 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                     old,
                     f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names",
                 )
-        yield from _undescribed(node, model)
         for old, message in _swapped(node):
             if (node.source.file, old.start) not in seen | shared:  # several nodes can have one list of remappings
                 seen.add((node.source.file, old.start))
@@ -127,14 +127,21 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
             yield node.source, old, f"`{label}` has no topic `{name}`" + Suggestion(near, name)
 
 
-def _undescribed(node: LaunchedNode, model: Model) -> Iterator[tuple[Source, Named, str]]:
-    """Yield the new name of the robot description of a node, if no other file has this name."""
-    texts = [source.text for file, source in model.related_files.items() if file.endswith(LAUNCH)]
-    is_set = any(re.search(_DESCRIPTION_SET, text) for text in texts)
-    for old, new in node.remappings if node.package in _DESCRIBED and is_set else ():
+def _undescribed(nodes: list[LaunchedNode], model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the new name of the robot description of each node, if no other file has this name."""
+    moved = [
+        (node, new)
+        for node in nodes
+        for old, new in (node.remappings if node.package in _DESCRIBED else ())
+        if old.name.strip("/") == "robot_description" and re.fullmatch(r"[\w/]+", new.name.strip("/"))
+    ]
+    texts = (source.text for file, source in model.related_files.items() if file.endswith(LAUNCH))
+    if not moved or not any(re.search(_DESCRIPTION_SET, text) for text in texts):
+        return
+    words = Words(model)
+    for node, new in moved:
         name = new.name.strip("/")
-        is_moved = old.name.strip("/") == "robot_description" and re.fullmatch(r"[\w/]+", name) is not None
-        if is_moved and not Words(model).names(name, [(node.source.file, new.start)]):
+        if not words.names(name, [(node.source.file, new.start)]):
             yield node.source, new, f"no other file names `{name}`, so `{node.program}` is without a description"
 
 

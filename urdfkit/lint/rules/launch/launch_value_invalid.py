@@ -39,6 +39,7 @@ class LaunchValueInvalid(RobotRule):
     - parameter files with substitutions but without ``subst_value``, files that are loaded into the wrong namespace or
       parameter, and MoveIt files that no launch file loads
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
+    - planning pipelines in another namespace than that of the node ``move_group``
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,
       and ``value`` for the text itself

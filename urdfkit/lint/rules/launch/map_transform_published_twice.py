@@ -9,7 +9,7 @@ class MapTransformPublishedTwice(RobotRule):
     ## What it does
     Finds amcl, gmapping, slam_toolbox, cartographer and the filters of robot_localization with ``world_frame`` map,
     also in included launch files. Compares the launch arguments in the conditions of these nodes. Computed conditions
-    and files with groups or namespaces are not checked.
+    and files with namespaces are not checked.
 
     ## Why is this bad?
     The robot jumps on the map between two poses. Often a condition is inverted: one value of the argument then starts

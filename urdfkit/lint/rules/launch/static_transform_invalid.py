@@ -13,6 +13,7 @@ class StaticTransformInvalid(RobotRule):
     - angles in degrees, and quaternions that are not normalized
     - a frame that is its own parent, a misspelt parent frame, and a child frame that a joint of the robot already
       places
+    - a fixed frame, such as ``map``, below the root of the robot
 
     ## Why is this bad?
     The node exits, or the transform is missing or wrong. With two parents, a frame jumps between two places.

@@ -8,7 +8,7 @@ class LinksOverlap(RobotRule):
 
     ## What it does
     Compares the boxes, cylinders and spheres of links with every joint at zero: the collision shapes, or the visual
-    shapes of links without collision shapes. Reports these cases: Reports three cases:
+    shapes of links without collision shapes. Reports three cases:
 
     - A joint places a link, with all parts that it carries, completely inside the parent link.
     - Two links that move against each other have the same shape at the same place.
