@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
+from functools import cached_property
+from pathlib import Path, PurePath
 
 from urdfkit.description.xml.source import Span
-from urdfkit.errors import nearest
+from urdfkit.errors import ResourceError, nearest
 from urdfkit.lint.finding import Finding
+from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from urdfkit.lint.facts.values.value_sources import ValueSources
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Document, Tag
 
 _CODES = ("X103", "X104", "X124")
+_FIND = re.compile(r"\$\(find\s+([^\s()]+)\s*\)")
+_PROPERTY = re.compile(r"<xacro:property\s[^<>]*\bname\s*=\s*[\"']([^\"']*)[\"']")
 
 
 def at_missing_definitions(findings: list[Finding], model: Model) -> list[Finding]:
@@ -32,32 +34,68 @@ def at_missing_definitions(findings: list[Finding], model: Model) -> list[Findin
     causes = _Causes(model, ValueSources(model))
     found: list[Finding] = []
     places: dict[tuple[str, Span | str | None], int] = {}
-    has_cause = {each.names[:1] for each in findings if each.code in _CODES and not _is_parameter(each, model)}
-    for finding in findings:
+    is_parameter = [each.code in _CODES and _is_parameter(each, model) for each in findings]
+    has_cause = any(each.code in _CODES and not of_macro for each, of_macro in zip(findings, is_parameter, strict=True))
+    for finding, of_macro in zip(findings, is_parameter, strict=True):
         if finding.code not in _CODES:
             found.append(finding)
             continue
-        if has_cause and _is_parameter(finding, model):
+        if has_cause and of_macro:
             continue
-        span, help = causes.of(finding)
-        key = (finding.code, finding.names[0] if finding.code == "X104" and finding.names else span)
+        cause = causes.of(finding)
+        named = finding.names[0] if finding.code == "X104" and finding.names else None
+        key = (finding.code, named or (cause.span if cause is not None else None))
         first = places.get(key)
-        if span is None and not (finding.code == "X104" and finding.names):
+        if cause is None and named is None:
             found.append(finding)
         elif first is None:
             places[key] = len(found)
-            found.append(_moved(finding, span, help) if span is not None else finding)
+            found.append(_moved(finding, cause) if cause is not None else finding)
         else:
             one = found[first]
             found[first] = Finding(**{**one.__dict__, "related": (*one.related, finding)})
     return found
 
 
-def _moved(finding: Finding, span: Span, help: str) -> Finding:
-    used = f"{help}; it is used at {finding.file}:{finding.line}:{finding.column}"
-    details = {"span": span, "help": used, "fix": None, "chains": (), "related": (finding,)}
-    if finding.code == "X103" and help.startswith("add ns"):
-        details["message"] = f"namespace `{finding.names[0].rpartition('.')[0]}` of macros is not defined"
+@record
+class _Cause:
+    """Place where a definition is missing.
+
+    Attributes:
+        span: the place.
+        help: what to do there.
+        namespace: the namespace that an include lacks.
+    """
+
+    span: Span
+    help: str
+    namespace: str = ""
+
+
+@record(eq=False)
+class _Include:
+    """Include of a file.
+
+    Attributes:
+        document: the file with the include.
+        tag: the include.
+        path: the path of the included file, as written.
+        name: the name of the included file.
+        namespace: the namespace of its macros and properties.
+    """
+
+    document: Document
+    tag: Tag
+    path: str
+    name: str
+    namespace: str | None
+
+
+def _moved(finding: Finding, cause: _Cause) -> Finding:
+    used = f"{cause.help}; it is used at {finding.file}:{finding.line}:{finding.column}"
+    details = {"span": cause.span, "help": used, "fix": None, "chains": (), "related": (finding,)}
+    if finding.code == "X103" and cause.namespace:
+        details["message"] = f"namespace `{cause.namespace}` of macros is not defined"
     return Finding(**{**finding.__dict__, **details})
 
 
@@ -73,33 +111,36 @@ class _Causes:
 
     def __init__(self, model: Model, sources: ValueSources) -> None:
         self._model, self._sources = model, sources
+        self._found: dict[tuple[str, str, str], _Cause | None] = {}
 
-    def of(self, finding: Finding) -> tuple[Span | None, str]:
-        """Return the place where a definition is missing, and what to do there; None if it is unknown."""
-        name = finding.names[0] if finding.names else ""
+    def of(self, finding: Finding) -> _Cause | None:
+        """Return the place where a definition is missing; None if it is unknown."""
         if finding.code == "X124":
             return self._in_yaml(finding)
-        if finding.code == "X103":
-            return self._namespace(name) if "." in name else self._include_of_macro(name)
-        for place in (self._local_property(name), self._namespace(f"{name}."), self._property_of_twin(finding, name)):
-            if place[0] is not None:
-                return place
-        return None, ""
+        key = (finding.code, finding.names[0] if finding.names else "", finding.file)
+        if key not in self._found:
+            self._found[key] = self._of_name(*key)
+        return self._found[key]
 
-    def _in_yaml(self, finding: Finding) -> tuple[Span | None, str]:
+    def _of_name(self, code: str, name: str, file: str) -> _Cause | None:
+        if code == "X103":
+            return self._namespace(name) if "." in name else self._include_of_macro(name)
+        return self._local_property(name) or self._namespace(f"{name}.") or self._property_of_twin(file, name)
+
+    def _in_yaml(self, finding: Finding) -> _Cause | None:
         """Return the list in a YAML file that lacks an item, or the misspelt key."""
         source, span = self._model.document(finding.file).source, finding.span
         text = source.text[source.offset(span.line, span.column) : source.offset(span.end_line, span.end_column)]
         found = [self._sources.lacking(text, span, chain) for chain in finding.chains or ((),)]
         if found[0] is None or any(each != found[0] for each in found):
-            return None, ""
+            return None
         group, key = found[0]
         misspelt = self._misspelt(key, list(group.children)) if isinstance(key, str) else None
         if isinstance(key, str) and misspelt is None:
-            return None, ""
+            return None
         at, length = (group.children[misspelt].place, len(misspelt)) if misspelt else (group.place, len(group.name))
         help = f"write `{key}`" if misspelt else f"write item {int(key) + 1} of `{group.name}`"
-        return Span(at.file, at.line, at.column, at.line, at.column + max(length, 1)), help
+        return _Cause(Span(at.file, at.line, at.column, at.line, at.column + max(length, 1)), help)
 
     def _misspelt(self, key: str, keys: list[str]) -> str | None:
         """Return the key of a dictionary that no expression uses and that resembles the right one."""
@@ -108,66 +149,85 @@ class _Causes:
         is_used = other is not None and any(re.search(rf"(?<!\w){re.escape(other)}(?!\w)", text) for text in texts)
         return None if is_used else other
 
-    def _local_property(self, name: str) -> tuple[Span | None, str]:
+    def _local_property(self, name: str) -> _Cause | None:
         """Return the property of a macro that its caller uses, without a scope."""
         position = self._model.expanded.properties.get(name)
         tag = self._model.tag(position) if position is not None else None
         if position is None or tag is None or "scope" in tag.attributes:
-            return None, ""
+            return None
         is_local = any(above.name == "xacro:macro" for above in tag.ancestors())
-        return (self._model.span(position), 'add scope="parent"') if is_local else (None, "")
+        return _Cause(self._model.span(position), 'add scope="parent"') if is_local else None
 
-    def _namespace(self, name: str) -> tuple[Span | None, str]:
+    def _namespace(self, name: str) -> _Cause | None:
         """Return the include of a file without the namespace of a name."""
         space, _, rest = name.rpartition(".")
-        includes = list(self._includes())
-        if any("ns" in tag.attributes and tag.attributes["ns"].value == space for _, tag in includes):
-            return None, ""
+        if any(each.namespace == space for each in self._includes):
+            return None
         macro = self._model.expanded.macros.get(rest)
-        for document, tag in includes:
-            path = tag.attributes["filename"].value if "filename" in tag.attributes else ""
-            stem = Path(path).name.split(".")[0]
-            is_meant = macro.position.file.endswith(Path(path).name) if macro is not None else stem == space
-            if path and "ns" not in tag.attributes and is_meant:
-                return document.span_of(tag), f'add ns="{space}"'
-        return None, ""
+        file = PurePath(macro.position.file).name if macro is not None else None
+        for each in self._includes:
+            is_meant = each.name == file if file is not None else each.name.partition(".")[0] == space
+            if each.name and each.namespace is None and is_meant:
+                return _Cause(each.document.span_of(each.tag), f'add ns="{space}"', space)
+        return None
 
-    def _include_of_macro(self, name: str) -> tuple[Span | None, str]:
+    def _include_of_macro(self, name: str) -> _Cause | None:
         """Return an include of a file in the same folder as the only file that defines a macro."""
         files = self._model.neighbouring_macros.get(name, [])
         if len(files) != 1:
-            return None, ""
-        beside = [
-            (document, tag)
-            for document, tag in self._includes()
-            if "filename" in tag.attributes
-            and str(files[0].parent).endswith(
-                re.sub(r".*\)|^\.*/", "", tag.attributes["filename"].value).rpartition("/")[0]
-            )
-        ]
+            return None
+        beside = self._folders.get(files[0].parent.resolve(), [])
         if len(beside) < 2:
-            return None, ""
-        document, tag = beside[-1]
-        return document.span_of(tag), f"include {files[0].name}, which defines `{name}`"
+            return None
+        place = beside[-1].document.span_of(beside[-1].tag)
+        return _Cause(place, f"include {files[0].name}, which defines `{name}`")
 
-    def _property_of_twin(self, finding: Finding, name: str) -> tuple[Span | None, str]:
+    @cached_property
+    def _folders(self) -> dict[Path, list[_Include]]:
+        """Folder → the includes of its files, without those whose folder an expression computes."""
+        found: dict[Path, list[_Include]] = {}
+        packages = self._model.expanded.packages
+        for each in self._includes:
+            try:
+                written = _FIND.sub(lambda part: str(packages.find(part[1])), each.path.rpartition("/")[0])
+                folder = (Path(each.document.source.file).parent / written).resolve()
+            except (ResourceError, OSError, ValueError):  # ValueError: the path has a character that no file has
+                continue
+            if each.path and "$" not in written:
+                found.setdefault(folder, []).append(each)
+        return found
+
+    def _property_of_twin(self, file: str, name: str) -> _Cause | None:
         """Return the include of a file that uses a property, which other robots define before they include it."""
-        from urdfkit.lint.project.description_files import near_descriptions
+        used = PurePath(file).name
+        if not any(name in names and used in text for text, names in self._other_robots):
+            return None
+        for each in self._includes:
+            if each.name == used:
+                return _Cause(each.document.span_of(each.tag), f"define `{name}` before, as other robots do")
+        return None
 
-        model, file = self._model, Path(finding.file).name
+    @cached_property
+    def _other_robots(self) -> list[tuple[str, set[str]]]:
+        """The text of each file nearby that is not included, and the names of its properties."""
+        from urdfkit.lint.project.description_files import SUFFIXES, near_descriptions
+
+        model = self._model
+        model.watch(*SUFFIXES)
         read = {str(Path(each).absolute()) for each in model.expanded.sources}
-        defines = rf"<xacro:property\s[^<>]*\bname\s*=\s*[\"']{re.escape(name)}[\"']"
         others = near_descriptions(model.package, model.expanded.path)
-        is_defined = any(
-            f"{file}" in text and re.search(defines, text) for path, text in others if str(path.absolute()) not in read
-        )
-        for document, tag in self._includes() if is_defined else ():
-            if "filename" in tag.attributes and Path(tag.attributes["filename"].value).name == file:
-                return document.span_of(tag), f"define `{name}` before, as other robots do"
-        return None, ""
+        return [(text, set(_PROPERTY.findall(text))) for path, text in others if str(path.absolute()) not in read]
 
-    def _includes(self) -> Iterator[tuple[Document, Tag]]:
-        """Yield the includes of all files."""
+    @cached_property
+    def _includes(self) -> list[_Include]:
+        """The includes of all files."""
+        found = []
         for file in self._model.expanded.sources:
             document = self._model.document(file)
-            yield from ((document, tag) for tag in document.walk() if tag.name == "xacro:include")
+            for tag in document.walk():
+                if tag.name == "xacro:include":
+                    path, space = (tag.attributes.get(each) for each in ("filename", "ns"))
+                    written = path.value if path is not None else ""
+                    name = written.rpartition("/")[2]
+                    found.append(_Include(document, tag, written, name, space.value if space is not None else None))
+        return found
