@@ -126,7 +126,8 @@ MISTAKES = [
     ("arm.srdf", 'name="j2" value', 'name="j1" value', "M106", 6, "duplicate joint `j1` in `home`"),
     ("pilz_planning.yaml", "PTP", "LINE", "M109", 2, "did you mean `LIN`?"),
     ("sensors_3d.yaml", "PointC", "Pointc", "M109", 3, "did you mean `occupancy_map_monitor/PointCloudOctomapUpdater`"),
-    ("initial_positions.yaml", "j2: 0.5", "j2: 1.5", "M109", 3, "the first position of joint `j2` is 1.5, beyond"),
+    ("initial_positions.yaml", "j2: 0.5", "j2: 1.5", "K971", 3, "`initial_positions` has 1.5 for joint `j2`, whose"),
+    ("initial_positions.yaml", "j2: 0.5", "j2: 45", "K971", 3, "write radians, if the values are degrees"),
 ]
 RIGHT = [
     ("controllers.yaml", "joints: [j1, j2, j3]", "joints: [j1, j2, j3]"),
@@ -142,7 +143,7 @@ def findings(folder, name, old, new, count=-1):
         assert not is_changed or old in text, old
         (folder / file).write_text(text.replace(old, new, count) if is_changed else text)
     found = lint(folder, target="ros2")
-    return [one for one in found if one.code in ("M104", "M105", "M106", "M107", "M108", "M109", "M112")]
+    return [one for one in found if one.code in ("M104", "M105", "M106", "M107", "M108", "M109", "M112", "K971")]
 
 
 @pytest.mark.parametrize(("name", "old", "new"), RIGHT)

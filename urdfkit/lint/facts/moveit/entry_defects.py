@@ -184,22 +184,3 @@ def unused_limits(source: Source) -> Defects:
             if value is not None and value > 0.0:
                 name = entry.name.text
                 yield flag, f"`max_{quantity}` of joint `{name}` is not used, because `has_{quantity}_limits` is false"
-
-
-def initial_positions_beyond_limits(source: Source, robot: Robot) -> Defects:
-    """Yield the first positions of joints that are beyond their limits; the setup assistant of MoveIt 2 writes them."""
-    for document in documents(source) if "initial_positions" in source.text else ():
-        positions = document.find("initial_positions")
-        for key, node in positions.entries if positions is not None else ():
-            joint, value = robot.joint_by_name.get(key.text), number_of(node)
-            limit = joint.limit if joint is not None and joint.type in ("revolute", "prismatic") else None
-            low, high = (limit.lower or 0.0, limit.upper or 0.0) if limit is not None else (0.0, 0.0)
-            if value is not None and low < high and not low - _ROUNDING <= value <= high + _ROUNDING:
-                yield (
-                    node,
-                    f"the first position of joint `{key.text}` is {value:g}, beyond its limits {low:g} … {high:g}",
-                )
-
-
-_ROUNDING = 0.005
-"""Accepted excess over a limit [rad or m]."""

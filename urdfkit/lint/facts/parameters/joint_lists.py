@@ -22,6 +22,9 @@ _NO_POSITIONS = (
 _FEWEST, _FEWEST_OF_POSITIONS = 4, 3
 """Smallest number of joints whose lists are compared; the second for lists that are named as positions."""
 
+_ROUNDING = {"revolute": 5e-3, "prismatic": 1e-3}
+"""Type of a joint → accepted excess over a limit [rad or m]; 2.97 is a rounded limit of 2.967."""
+
 _MOST_LACKING = 2
 """Largest difference of the lengths of lists that a missing value explains."""
 
@@ -88,24 +91,23 @@ def _is_other(name: str) -> bool:
     return re.search(_NO_POSITIONS, name, re.IGNORECASE) is not None
 
 
-def _beyond(
-    list_name: str, values: Sequence[Node], names: list[str], robot: Robot, most: int | None = None
-) -> Iterator[tuple[Node, str]]:
-    """Yield the values beyond the limits of their joint, unless more are than `most`, so that they are no positions.
+def _beyond(list_name: str, values: Sequence[Node], names: list[str], robot: Robot) -> Iterator[tuple[Node, str]]:
+    """Yield the values beyond the limits of their joint, unless half of the values are, so that they are no positions.
 
-    By default, fewer than half of the values may be.
+    A single value is a position if it is beyond a limit by less than the range of the joint; others are in the units
+    of a servo.
     """
     found = []
     for item, name in zip(values, names, strict=True):
         joint, number = robot.joint_by_name.get(name), number_of(item)
         limit = joint.limit if joint is not None and joint.type in ("revolute", "prismatic") else None
-        lower, upper = (limit.lower, limit.upper) if limit is not None else (None, None)
-        if number is None or lower is None or upper is None or not lower < upper:
-            continue
-        if not lower - 1e-3 <= number <= upper + 1e-3:
+        lower, upper = (limit.lower or 0.0, limit.upper or 0.0) if limit is not None else (0.0, 0.0)
+        excess = max(lower - number, number - upper) if number is not None else 0.0
+        least = _ROUNDING.get(joint.type or "", 0.0) if joint is not None else 0.0
+        if lower < upper and excess > least and (len(names) > 1 or excess < upper - lower):
             bounds = f"{lower:g} to {upper:g}"
             found.append((item, f"`{list_name}` has {number:g} for joint `{name}`, whose limits are {bounds}"))
-    if 2 * len(found) < len(names) if most is None else len(found) <= most:
+    if 2 * len(found) < len(names) or len(names) == 1:
         yield from found
 
 
@@ -135,19 +137,19 @@ _LEAST = 3
 def positions_beyond_limits(model: Model) -> Iterator[tuple[Source, Node, str]]:
     """Yield the positions beyond the limits of their joints that are within them as degrees or millimetres.
 
-    Files and code that name the unit, or convert it, are accepted. Of joints that are listed alone, all positions
-    beyond the limits are yielded.
+    Files and code that name the unit, or convert it, are accepted. Of joints that are listed alone, and of the first
+    positions that the setup assistant of MoveIt 2 writes, other positions beyond the limits are yielded too.
     """
     robot, words = model.robot, None
     for source in yamls(model):
         if re.search(_WRITTEN, source.text):
             continue
         seen = set[tuple[int, int]]()
-        for key, values in _positions(source, model):
+        for key, values in _compared(source, model):
             found = [(unit, *each) for unit in _FACTORS if (each := _outside(values, robot, unit)) is not None]
             if not found and len(values) == 1 and not _is_other(key) and not re.search(_OF_GRIPPER, key):
                 name, value = values[0]
-                for node, message in _beyond(key, [value], [name], robot, most=1):
+                for node, message in _beyond(key, [value], [name], robot):
                     yield source, node, message
             if not found or (found[0][2].line, found[0][2].column) in seen:
                 continue
@@ -158,6 +160,13 @@ def positions_beyond_limits(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 right = "radians" if unit == "degrees" else "metres"
                 message = f"`{key}` has {value.text} for joint `{joint}`, whose limits are {bounds}; write {right}"
                 yield source, value, message + f", if the values are {unit}"
+
+
+def _compared(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[str, Node]]]]:
+    """Yield the positions; those of ``initial_positions`` one by one, unless all are in another unit."""
+    for key, values in _positions(source, model):
+        is_split = key == "initial_positions" and not any(_outside(values, model.robot, unit) for unit in _FACTORS)
+        yield from ((key, [each]) for each in values) if is_split else ((key, values),)
 
 
 def _positions(source: Source, model: Model) -> Iterator[tuple[str, list[tuple[str, Node]]]]:
@@ -230,4 +239,5 @@ def _outside(values: list[tuple[str, Node]], robot: Robot, unit: str) -> tuple[s
         is_beyond = not limit.lower - slack <= number <= limit.upper + slack
         if first is None and is_beyond:
             first = name, value, f"{limit.lower:g} to {limit.upper:g}"
-    return first
+    largest = max((abs(number_of(value) or 0.0) for _, value in values), default=0.0)
+    return first if unit != "degrees" or largest > 2.0 * math.pi else None

@@ -23,7 +23,6 @@ class MoveitSettingInvalid(RobotRule):
     - values of the wrong type, and groups and controllers without a required parameter
     - limits that are negative, zero while ``has_…_limits`` is true, or far beyond those of the robot
     - ``has_…_limits`` that is not a boolean, is true without a limit, or is false for a single joint with a limit
-    - first positions beyond the limits of the joints
     - solver timeouts that are not positive, and default scaling factors above 1
     - Cartesian limits that are missing or have the wrong sign
     - solvers for chains of groups with several branches, and arms of three or four joints whose solver
@@ -61,7 +60,6 @@ class MoveitSettingInvalid(RobotRule):
         from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
         from urdfkit.lint.facts.moveit.entry_defects import (
             incomplete_entries,
-            initial_positions_beyond_limits,
             uncontrolled_joints,
             unused_limits,
         )
@@ -88,7 +86,6 @@ class MoveitSettingInvalid(RobotRule):
                 *unused_limits(source),
                 *(without_chain(source, root, model.robot) if not model.is_incomplete else ()),
                 *(orientation_out_of_reach(source, root, model.robot) if not model.is_incomplete else ()),
-                *(initial_positions_beyond_limits(source, model.robot) if not model.is_incomplete else ()),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
                 *projection_defects(
                     source, root, model.robot, [text for name, text in texts.items() if name != source.file]
