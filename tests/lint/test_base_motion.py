@@ -69,7 +69,6 @@ MISTAKES = [
     (FORWARDS, "ekf.yaml", "false, false, true,", "false, false, false,", "K983", 12, "does not fuse vyaw; yaw drifts"),
     (FORWARDS, "ekf.yaml", "mode: true", "mode: false", "K983", 7, "no input fuses z or vz"),
     (FORWARDS, "ekf.yaml", "config: [false, false", "config: [true, true", "K983", 9, "fuse the velocities only"),
-    (FORWARDS, "ekf.yaml", "frequency: 30.0", "frequency: 2.0", "K983", 14, "in nav2.yaml is 0.3 s"),
     (FORWARDS, "ekf.yaml", "[0.1, 0.1, ", "[0.1, ", "K971", 15, "has 14 values; 15 or 225 are needed"),
     (FORWARDS, "nav2.yaml", "DifferentialM", "OmniM", "K982", 4, "but the base cannot move sideways"),
     (FORWARDS, "nav2.yaml", "model: DiffDrive", "model: Omni", "K982", 9, "but the base cannot move sideways"),
@@ -95,6 +94,47 @@ def test_each_contradiction_has_one_finding(tmp_path, files, name, old, new, cod
     [found] = findings(tmp_path, files, name, old, new)
     assert (found.code, found.line) == (code, line)
     assert message in found.message
+
+
+SLOW = FORWARDS | {"ekf.yaml": FILTER.replace("frequency: 30.0", "frequency: 2.0")}
+TOLERANCE = "{}:\n  ros__parameters:\n    {{{}}}\n"
+COSTMAP = "global_frame: map\nrobot_base_frame: base_link\nfootprint_padding: 0.0\ntransform_tolerance: 0.3\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "is_reported"),
+    [
+        (TOLERANCE.format("amcl", "transform_tolerance: 0.3"), False),
+        (TOLERANCE.format("bridge", "transform_tolerance: 0.3"), False),
+        (TOLERANCE.format("local_costmap", "transform_tolerance: 0.3"), True),
+        (TOLERANCE.format("local_costmap", "transform_tolerance: 0.6"), False),
+        (TOLERANCE.format("controller_server", "FollowPath: {transform_tolerance: 0.3}"), True),
+        (TOLERANCE.format("behavior_server", "transform_tolerance: 0.3"), True),
+        (TOLERANCE.format("collision_monitor", "transform_tolerance: 0.3"), True),
+        (COSTMAP, True),
+        ("transform_tolerance: 0.3\n", False),
+    ],
+)
+def test_the_rate_of_a_filter_suits_the_transforms_that_navigation_accepts(tmp_path, text, is_reported):
+    found = [one for one in findings(tmp_path, SLOW | {"tolerance.yaml": text}) if one.code == "K983"]
+    assert [one.line for one in found] == ([14] if is_reported else [])
+    assert all("in tolerance.yaml is 0.3 s: transforms are older than that" in one.message for one in found)
+
+
+def test_transforms_with_a_time_in_the_future_are_not_too_old(tmp_path):
+    offset = {"ekf.yaml": SLOW["ekf.yaml"].replace("frequency", "transform_time_offset: 0.3\n    frequency")}
+    tolerance = {"tolerance.yaml": TOLERANCE.format("local_costmap", "transform_tolerance: 0.3")}
+    assert [one.code for one in findings(tmp_path, SLOW | offset | tolerance) if one.code == "K983"] == []
+
+
+def test_a_rate_suits_the_files_of_its_own_robot(tmp_path):
+    tolerance = {"tolerance.yaml": TOLERANCE.format("local_costmap", "transform_tolerance: 0.3")}
+    loads = '<gazebo><plugin name="c" filename="libgazebo_ros2_control.so"><parameters>$(find barge)/{}</parameters>'
+    end = "</plugin></gazebo></robot>"
+    raft = {"raft.urdf": ROBOT.replace("</robot>", loads.format("tolerance.yaml") + end)}
+    findings(tmp_path, SLOW | tolerance | raft)
+    (tmp_path / "barge.urdf").write_text(ROBOT.replace("</robot>", loads.format("control.yaml") + end))
+    assert [one.code for one in lint(tmp_path / "barge.urdf") if one.code == "K983"] == []
 
 
 def test_a_row_of_a_covariance_in_ros1(tmp_path):

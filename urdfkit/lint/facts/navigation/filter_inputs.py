@@ -1,4 +1,8 @@
-"""Frames and inputs of the filters of robot_localization (ros_filter.cpp, Humble to Rolling)."""
+"""Inputs of the filters of robot_localization: names and covariances, axes that drift, and rates that are too low.
+
+Sources: robot_localization (src/ros_filter.cpp, Noetic to Rolling), costmap_2d (costmap_2d_ros.cpp) of Noetic,
+nav2_costmap_2d, nav2_controller, nav2_behaviors and nav2_collision_monitor of Jazzy.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +11,14 @@ from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
-from urdfkit.lint.facts.control.yaml_tree import Node, number_of
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, number_of, walk, yamls_of_robot
+from urdfkit.lint.facts.gazebo.base_motion import moves_sideways
+from urdfkit.lint.facts.navigation.filters import AXES, FALSE, Defects, Filter
+from urdfkit.lint.facts.navigation.sections import COSTMAPS, costmaps_of_ros1, sections
+from urdfkit.lint.model.model import Model
 
 _INPUT = r"((?:odom|imu|pose|twist)\d+)(?:_(\w+))?"
 _OF_INPUTS = (
@@ -86,3 +96,89 @@ def wrong_covariances(group: Node) -> Iterator[tuple[Node, str]]:
             odd = [line for line, length in rows.items() if length != _WIDTH]
             place = next((item for item in value.items if [item.line] == odd), key)
             yield place, f"`{key.text}` has {count} values; {_WIDTH * _WIDTH} are needed"
+
+
+_READERS = (
+    *(*COSTMAPS, "controller_server", "behavior_server", "recoveries_server"),
+    *("collision_monitor", "collision_detector"),
+)
+"""Nodes whose ``transform_tolerance`` is the accepted age of transforms; AMCL post-dates its own transform by it."""
+
+
+def estimate_defects(model: Model, every: list[Filter]) -> Defects:
+    """Yield the inputs and rates of filters that make their estimates useless: file, place, message."""
+    sideways = moves_sideways(model) if every else None
+    tolerances = list(_tolerances(model)) if every else []
+    for each in every:
+        yield from _unmeasured(each, sideways)
+        yield from _slower_than_transforms(each, tolerances)
+
+
+def _unmeasured(each: Filter, sideways: bool | None) -> Defects:
+    """Yield the input of a local filter that lacks an axis of which no input has the place or the velocity.
+
+    The filter reports the same at run time (ros_filter.cpp, "unbounded error growth"). The lateral velocity of a base
+    that cannot move sideways is left out, since it is zero.
+
+    Args:
+        each: the filter.
+        sideways: whether the base moves sideways; None for robots without a drive on wheels.
+    """
+    inputs = list(each.inputs())
+    written = [key for key, _ in each.group.entries if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", key.text)]
+    if not each.is_local or sideways is None or not inputs or len(inputs) < len(written):
+        return
+    is_planar = each.text("two_d_mode") not in ("", *FALSE)
+    axes = ("x", "yaw", *(("y",) if sideways else ()), *(() if is_planar else ("z",)))
+    for axis in axes:
+        places = [AXES.index(axis), AXES.index(f"v{axis}")]
+        if any(values[at] not in FALSE for _, _, _, values in inputs for at in places):
+            continue
+        flag = each.group.find("two_d_mode")
+        if axis == "z":
+            node = flag or inputs[0][2]
+            message = "no input fuses z or vz, so z drifts without bound; set `two_d_mode` to true"
+        else:
+            name, node = next(
+                ((name, config.items[places[1]]) for name, _, config, _ in inputs if name.startswith("odom")),
+                (inputs[0][0], inputs[0][2].items[places[1]]),
+            )
+            why = ", but the base can move sideways" if axis == "y" else f"; {axis} drifts without bound"
+            message = f"`{name}_config` does not fuse v{axis}{why}"
+        yield each.source, node, message
+
+
+def _slower_than_transforms(each: Filter, tolerances: list[tuple[Source, float]]) -> Defects:
+    """Yield the rate of a filter whose transforms are older than navigation accepts.
+
+    Args:
+        each: the filter.
+        tolerances: the ages that costmaps, controller and behavior servers and collision monitors accept.
+    """
+    frequency = each.group.find("frequency")
+    rate = number_of(frequency)
+    if frequency is None or not rate or rate <= 0.0 or not each.publishes:
+        return
+    age = 1.0 / rate - (number_of(each.group.find("transform_time_offset")) or 0.0)
+    for source, limit in tolerances:
+        if limit < age - 1e-6:
+            file = source.file.rpartition("/")[2]
+            message = f"`frequency` is {rate:g} Hz, but `transform_tolerance` in {file} is {limit:g} s"
+            yield each.source, frequency, f"{message}: transforms are older than that"
+            return
+
+
+def _tolerances(model: Model) -> Iterator[tuple[Source, float]]:
+    """Yield the accepted ages of transforms in the parameters of navigation, and their files."""
+    for source in yamls_of_robot(model):
+        if "transform_tolerance" not in source.text:
+            continue
+        groups = (
+            [node for key, group in sections(source) if key.last_name in _READERS for node in walk(group)]
+            if PARAMETERS in source.text
+            else costmaps_of_ros1(source)
+        )
+        for group in groups:
+            limit = number_of(group.find("transform_tolerance"))
+            if limit is not None and limit > 0.0:
+                yield source, limit

@@ -15,7 +15,6 @@ from urdfkit.description.packages.related_files import package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
-from urdfkit.lint.facts.gazebo.base_motion import moves_sideways
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.node_sections import groups_of
@@ -28,8 +27,8 @@ from urdfkit.record import record
 Defects = Iterator[tuple[Source, Node, str]]
 
 _TRUE = ("true", "True", "TRUE")
-_FALSE = ("false", "False", "FALSE")
-_AXES = ["x", "y", "z", "roll", "pitch", "yaw", "vx", "vy", "vz", "vroll", "vpitch", "vyaw", "ax", "ay", "az"]
+FALSE = ("false", "False", "FALSE")
+AXES = ["x", "y", "z", "roll", "pitch", "yaw", "vx", "vy", "vz", "vroll", "vpitch", "vyaw", "ax", "ay", "az"]
 _UNMEASURED = {"imu": (0, 1, 2, 6, 7, 8), "pose": tuple(range(6, 15)), "twist": (*range(6), 12, 13, 14)}
 """Kind of an input → positions in its configuration that its messages do not have."""
 
@@ -74,7 +73,7 @@ class Filter:
     @property
     def publishes(self) -> bool:
         """Whether it publishes its transform."""
-        return self.text("publish_tf") not in _FALSE
+        return self.text("publish_tf") not in FALSE
 
     def inputs(self) -> Iterator[tuple[str, Node, Node, list[str]]]:
         """Yield name, topic, configuration and its values for each input with a configuration of 15 values."""
@@ -108,9 +107,8 @@ def filters(model: Model) -> list[Filter]:
     return found
 
 
-def filter_defects(model: Model) -> Defects:
+def filter_defects(model: Model, every: list[Filter]) -> Defects:
     """Yield the parameters of filters that contradict each other or the robot: file, place, message."""
-    every = filters(model)
     wheels = _wheel_odometry(model) if every else set()
     children = list(_second_parents(model, every))
     yield from children
@@ -123,10 +121,6 @@ def filter_defects(model: Model) -> Defects:
         local = {topic.text.strip("/") for one in every if one.is_local for _, topic, _, _ in one.inputs()}
         yield from _of_inputs(each, wheels | local)
     yield from _without_transform(model, every)
-    sideways = moves_sideways(model) if every else None
-    for each in every:
-        yield from _unmeasured(each, sideways)
-        yield from _slower_than_transforms(model, each)
 
 
 def _of_pair(pair: list[Filter], has_root: bool) -> Defects:
@@ -204,14 +198,14 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
         other = seen.setdefault((kind, topic.text.strip("/")), name)
         if topic.text and other != name:
             yield each.source, topic, f"`{name}` and `{other}` are both the topic `{topic.text}`"
-        both = [at for at in (0, 1) if values[at] in _TRUE and values[at + _AXES.index("vx")] in _TRUE]
+        both = [at for at in (0, 1) if values[at] in _TRUE and values[at + AXES.index("vx")] in _TRUE]
         is_second = each.is_global and name in absolute and len(absolute) > 1
         if kind == "odom" and topic.text.strip("/") in relative and len(both) > 1 and not is_second:
             message = f"`{name}_config` fuses positions and velocities of the same odometry; fuse the velocities only"
             yield each.source, config.items[0], message
             continue
         wrong = [at for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
-        fused = [_AXES[at] for at in wrong]
+        fused = [AXES[at] for at in wrong]
         if fused:
             yield (
                 each.source,
@@ -270,58 +264,6 @@ def _second_parents(model: Model, every: list[Filter]) -> Defects:
         yield source, node, f"{message}; write `{model.robot.roots()[0].name}`"
 
 
-def _unmeasured(each: Filter, sideways: bool | None) -> Defects:
-    """Yield the input of a local filter that lacks an axis of which no input has the place or the velocity.
-
-    The filter reports the same at run time (ros_filter.cpp, "unbounded error growth"). The lateral velocity of a base
-    that cannot move sideways is left out, since it is zero.
-
-    Args:
-        each: the filter.
-        sideways: whether the base moves sideways; None for robots without a drive on wheels.
-    """
-    inputs = list(each.inputs())
-    written = [key for key, _ in each.group.entries if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", key.text)]
-    if not each.is_local or sideways is None or not inputs or len(inputs) < len(written):
-        return
-    is_planar = each.text("two_d_mode") not in ("", *_FALSE)
-    axes = ("x", "yaw", *(("y",) if sideways else ()), *(() if is_planar else ("z",)))
-    for axis in axes:
-        places = [_AXES.index(axis), _AXES.index(f"v{axis}")]
-        if any(values[at] not in _FALSE for _, _, _, values in inputs for at in places):
-            continue
-        flag = each.group.find("two_d_mode")
-        if axis == "z":
-            node = flag or inputs[0][2]
-            message = "no input fuses z or vz, so z drifts without bound; set `two_d_mode` to true"
-        else:
-            name, node = next(
-                ((name, config.items[places[1]]) for name, _, config, _ in inputs if name.startswith("odom")),
-                (inputs[0][0], inputs[0][2].items[places[1]]),
-            )
-            why = ", but the base can move sideways" if axis == "y" else f"; {axis} drifts without bound"
-            message = f"`{name}_config` does not fuse v{axis}{why}"
-        yield each.source, node, message
-
-
-def _slower_than_transforms(model: Model, each: Filter) -> Defects:
-    """Yield the rate of a filter whose transforms are older than costmaps and AMCL accept."""
-    from urdfkit.lint.facts.control.yaml_tree import nodes, number_of
-
-    frequency = each.group.find("frequency")
-    rate = number_of(frequency)
-    if frequency is None or not rate or rate <= 0.0 or not each.publishes:
-        return
-    for source in yamls(model):
-        for node in nodes(source) if "transform_tolerance" in source.text else ():
-            limit = number_of(node.find("transform_tolerance"))
-            if limit is not None and 0.0 < limit < 1.0 / rate - 1e-6:
-                file = source.file.rpartition("/")[2]
-                message = f"`frequency` is {rate:g} Hz, but `transform_tolerance` in {file} is {limit:g} s"
-                yield each.source, frequency, f"{message}: transforms are older than that"
-                return
-
-
 def _is_elsewhere(model: Model, link: str) -> bool:
     """Return whether a description that the robot does not include mentions a link."""
     included = {str(Path(name).absolute()) for name in model.expanded.sources}
@@ -340,7 +282,7 @@ def _without_transform(model: Model, every: list[Filter]) -> Defects:
         for one in settings(source):
             if re.match(_DRIVES, one.kind):
                 enabled = one.group.find("enable_odom_tf")
-                if enabled is None or enabled.text not in _FALSE:
+                if enabled is None or enabled.text not in FALSE:
                     return
                 flags.append((source, enabled))
     if not flags or any((each.is_local and each.publishes) or not (each.is_local or each.is_global) for each in every):

@@ -16,7 +16,8 @@ class FilterInconsistent(RobotRule):
     - a filter in the map frame without an absolute position
     - inputs of which none fuses the place or the velocity along an axis, also y if the base can move sideways
     - place and velocity of the same odometry, which are fused twice
-    - a rate that is too low for the ``transform_tolerance`` of costmaps
+    - a rate that is too low for the ``transform_tolerance`` of costmaps, controller and behavior servers and collision
+      monitors
 
     Also reports packages in which no node publishes the transform from the odometry frame, because all filters and
     drive controllers disable it.
@@ -46,9 +47,11 @@ class FilterInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.navigation.filter_inputs import estimate_defects
         from urdfkit.lint.facts.navigation.filters import filter_defects, filters
 
-        for source, node, message in filter_defects(model):
-            names = tuple(each.name for each in filters(model) if each.group.find("world_frame") is node)
+        every = filters(model)
+        for source, node, message in (*filter_defects(model, every), *estimate_defects(model, every)):
+            names = tuple(each.name for each in every if each.group.find("world_frame") is node)
             kind = "transform" if names else ""
             yield self.at_span(span_of(source, node), message, names=names, kind=kind)
