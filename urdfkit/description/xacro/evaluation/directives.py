@@ -59,6 +59,8 @@ class Directives(Reuse):
         if space:
             self.at = (node, "ns")
             space = self.text(space, scope)
+            if isinstance(space, (dict, list, set, tuple)):
+                raise self.placed(Failure("other", f"the namespace `{short(str(space))}` is not text"))
             inner_macros, inner_scope = Namespace({}), Namespace(scope)
             macros.set(space, inner_macros, is_lazy=False)
             scope.set(space, inner_scope, is_lazy=False)
