@@ -158,12 +158,33 @@ def test_move_group_reads_pipelines_from_its_own_namespace(tmp_path, space):
     assert [row[1:] for row in found(cart, "L110")] == ([(3, message)] if space == "moveit" else [])
 
 
-@pytest.mark.parametrize(("frames", "is_swapped"), [("map base", False), ("base map", True), ("base camera", False)])
-def test_a_map_is_not_below_the_root_of_a_robot(tmp_path, frames, is_swapped):
+FILTER = '<node pkg="robot_localization" exec="ekf_node"/>'
+VIRTUAL = (
+    '<robot name="cart"><group name="all"><link name="base"/></group>'
+    '<virtual_joint name="v" type="planar" parent_frame="odom" child_link="base"/></robot>'
+)
+
+
+@pytest.mark.parametrize(
+    ("frames", "other", "semantics", "is_swapped"),
+    [
+        ("map base", FILTER, "", False),
+        ("base map", FILTER, "", True),
+        ("base map", "", VIRTUAL, True),
+        ("base map", "", "", False),
+        ("base map", f"<!-- {FILTER} -->", "", False),
+        ("base camera", FILTER, "", False),
+    ],
+)
+def test_a_map_is_not_below_the_root_of_a_robot_that_something_else_places(
+    tmp_path, frames, other, semantics, is_swapped
+):
     cart = package(tmp_path / "cart", "ament_cmake", "tf2_ros")
+    if semantics:
+        write(cart / "config/cart.srdf", semantics)
     parent, child = frames.split()
     arguments = f"--x 1 --frame-id {parent} --child-frame-id {child}"
     node = f'<node pkg="tf2_ros" exec="static_transform_publisher" args="{arguments}"/>'
-    write(cart / "launch/m.launch.xml", f"<launch>\n{node}\n</launch>\n")
+    write(cart / "launch/m.launch.xml", f"<launch>\n{node}\n{other}\n</launch>\n")
     message = "`map` cannot be below `base`, the root of robot `cart`; swap the frames"
     assert [row[2] for row in found(cart, "L118")] == ([message] if is_swapped else [])

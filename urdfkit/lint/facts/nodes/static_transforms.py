@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.launched_nodes import launches, started
 from urdfkit.lint.facts.moveit.srdf import semantics_of
 from urdfkit.lint.facts.ros_packages import is_slip
@@ -34,6 +35,11 @@ _OF_OTHERS = r"map|odom|world|earth|utm|base|cam|imu|laser|lidar|scan|gps|gnss|r
 
 _FIXED = r"map|world|earth|utm"
 """Matches frames below which robots move."""
+
+_PLACING = (
+    r"\b(?:amcl|cartographer_ros|gmapping|hector_mapping|nav2_(?:amcl|bringup)|robot_localization|slam_toolbox)\b"
+)
+"""Matches a package in launch files whose nodes place the root of the robot below another frame."""
 
 _MAX_ANGLE = 2.0 * math.pi + 0.01
 _MAX_ERROR = 0.05
@@ -138,7 +144,8 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
         yield child, f"the virtual joint of the SRDF puts `{names[0]}` below `{names[1]}`; swap the frames"
         return
     roots = model.robot.root_by_name
-    if child is not None and names[0] in roots and re.fullmatch(_FIXED, names[1]) and not re.search(_FIXED, names[0]):
+    is_reversed = names[0] in roots and re.fullmatch(_FIXED, names[1]) and not re.search(_FIXED, names[0])
+    if child is not None and is_reversed and _is_placed(names[0], model):
         yield (
             child,
             f"`{names[1]}` cannot be below `{names[0]}`, the root of robot `{model.robot.name}`; swap the frames",
@@ -156,6 +163,13 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
         yield child, f"`{names[1]}` is the child of joint `{joint.name}` and has the parent `{joint.parent}`"
     elif joint is None and names[0] in links:
         yield child, f"`{names[1]}` is the root of robot `{model.robot.name}` and cannot be below `{names[0]}`"
+
+
+def _is_placed(root: str, model: Model) -> bool:
+    """Return whether a node for localization, or a virtual joint, places the root of the robot below another frame."""
+    joints = [joint for semantics in semantics_of(model) for joint in semantics.find_all("virtual_joint")]
+    is_virtual = any(joint.get("child_link") == root for joint in joints)
+    return is_virtual or any(re.search(_PLACING, uncommented(source)) for source in launches(model))
 
 
 def _is_defined(word: Named, name: str, model: Model) -> bool:
