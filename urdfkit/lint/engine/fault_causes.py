@@ -145,9 +145,12 @@ class _Causes:
     def _misspelt(self, key: str, keys: list[str]) -> str | None:
         """Return the key of a dictionary that no expression uses and that resembles the right one."""
         other = next((each for each in keys if sorted(each) == sorted(key)), None) or nearest(key, keys, cutoff=0.75)
-        texts = [source.text for source in self._model.expanded.sources.values()]
-        is_used = other is not None and any(re.search(rf"(?<!\w){re.escape(other)}(?!\w)", text) for text in texts)
-        return None if is_used else other
+        return None if other is None or self._words.issuperset(re.findall(r"\w+", other)) else other
+
+    @cached_property
+    def _words(self) -> set[str]:
+        """The words of all files."""
+        return {word for source in self._model.expanded.sources.values() for word in re.findall(r"\w+", source.text)}
 
     def _local_property(self, name: str) -> _Cause | None:
         """Return the property of a macro that its caller uses, without a scope."""
