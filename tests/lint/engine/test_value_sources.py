@@ -116,3 +116,16 @@ def test_definitions_without_a_value_or_name_are_skipped(definitions, wrong, tmp
     robot = ROBOT.replace("<mass value=\"${size['mass']}\"/>", f'\n{definitions}\n<mass value="${{m}}"/>')
     place = ("I501", "r.urdf.xacro", 11, definitions.index(wrong) + 1)
     assert found_in(tmp_path, monkeypatch, robot) == [place]
+
+
+def test_properties_that_add_others_several_times_are_followed_once(tmp_path):
+    sums = [f'<xacro:property name="p{i}" value="${{{" + ".join([f"p{i - 1}"] * 8)}}}"/>' for i in range(1, 12)]
+    tensor = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    lines = [
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">',
+        '<xacro:property name="p0" value="-1e-9"/>',
+        *sums,
+        f'<link name="a"><inertial><mass value="${{p11}}"/>{tensor}</inertial></link></robot>',
+    ]
+    (tmp_path / "r.urdf.xacro").write_text("\n".join(lines))
+    assert [(finding.code, finding.line) for finding in lint(tmp_path, select=["I501"])] == [("I501", 2)]

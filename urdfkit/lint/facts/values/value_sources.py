@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import re
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 
 from urdfkit.description.xml.reader import read_source, shown_path
@@ -33,6 +34,8 @@ _ARGUMENT = re.compile(r"\$\(arg\s+([^\s)]+)\s*\)")
 _DEFAULT = r"(?<!\S){name}:?=(?:\^\|?)?('[^']*'|\"[^\"]*\"|\$\{{[^{{}}]*\}}|\S*)"
 _YAML = (".yaml", ".yml", ".json")
 _MAX_STEPS = 24
+_MAX_SOURCES = 200
+"""Values of one name; properties that add others several times would have any number of them."""
 
 
 @record(order=True)
@@ -71,6 +74,7 @@ class ValueSources:
         self._model = model
         self._yaml: dict[Path, Settings | None] = {}
         self._properties: dict[tuple[str, str], list[Tag]] = {}
+        self._found: dict[tuple[str, Keys, Calls], tuple[ValueSource, ...]] = {}
 
     def of_text(self, text: str, span: Span, calls: Sequence[Expansion]) -> set[ValueSource] | None:
         """Return the sources of the expressions in a text; None if one of them is not found.
@@ -121,8 +125,17 @@ class ValueSources:
                 elif isinstance(child, ast.expr):
                     yield from self._in_expression(child, span, calls, steps)
 
-    def _of_name(self, name: str, keys: Keys, calls: Calls, steps: int) -> Iterator[ValueSource]:
-        """Yield the sources of a name with keys: ``dims['arm']['length']``."""
+    def _of_name(self, name: str, keys: Keys, calls: Calls, steps: int) -> tuple[ValueSource, ...]:
+        """Return the sources of a name with keys: ``dims['arm']['length']``."""
+        use = name, keys, calls
+        if use not in self._found:
+            sources = list(islice(self._search(name, keys, calls, steps), _MAX_SOURCES + 1))
+            if len(sources) > _MAX_SOURCES:
+                raise UnresolvedError
+            self._found[use] = tuple(dict.fromkeys(sources))
+        return self._found[use]
+
+    def _search(self, name: str, keys: Keys, calls: Calls, steps: int) -> Iterator[ValueSource]:
         if name in ("pi", "tau", "e", "True", "False", "math", "xacro") and self._definition(name, calls) is None:
             return
         found = self._definition(name, calls)
