@@ -9,11 +9,10 @@ import ast
 import re
 from functools import cached_property
 from itertools import islice
-from pathlib import Path
 
-from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import Source, Span
-from urdfkit.errors import DescriptionError, ResourceError
+from urdfkit.lint.facts.values.expression_paths import Keys, called, item, path, path_of
+from urdfkit.lint.facts.values.yaml_values import UnresolvedError, YamlValues
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -26,13 +25,11 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Tag
 
     Calls = tuple[Expansion, ...]
-    Keys = tuple[str | int, ...]
 
 _EXPRESSION = re.compile(r"\$\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
 _ALONE = re.compile(r"\s*\$\{\s*[A-Za-z_]\w*\s*\}\s*")
 _ARGUMENT = re.compile(r"\$\(arg\s+([^\s)]+)\s*\)")
 _DEFAULT = r"(?<!\S){name}:?=(?:\^\|?)?('[^']*'|\"[^\"]*\"|\$\{{[^{{}}]*\}}|\S*)"
-_YAML = (".yaml", ".yml", ".json")
 _MAX_STEPS = 24
 _MAX_SOURCES = 200
 """Values of one name; properties that add others several times would have any number of them."""
@@ -53,16 +50,6 @@ class ValueSource:
     trail: tuple[Span, ...] = ()
 
 
-class UnresolvedError(Exception):
-    """The source of a value cannot be found.
-
-    Attributes:
-        lacking: the group or list of a YAML file that lacks the key, and the key.
-    """
-
-    lacking: tuple[Settings, str | int] | None = None
-
-
 class ValueSources:
     """Finds the sources of values of one model.
 
@@ -72,7 +59,7 @@ class ValueSources:
 
     def __init__(self, model: Model) -> None:
         self._model = model
-        self._yaml: dict[Path, Settings | None] = {}
+        self._yaml = YamlValues(model)
         self._properties: dict[tuple[str, str], list[Tag]] = {}
         self._found: dict[tuple[str, Keys, Calls], tuple[ValueSource, ...]] = {}
 
@@ -111,9 +98,9 @@ class ValueSources:
 
     def _in_expression(self, node: ast.expr, span: Span, calls: Calls, steps: int) -> Iterator[ValueSource]:
         """Yield the sources of an expression."""
-        path = _path(node)
-        if path is not None:
-            yield from self._of_name(*path, calls, steps + 1)
+        named = path(node)
+        if named is not None:
+            yield from self._of_name(*named, calls, steps + 1)
         elif isinstance(node, ast.Call):
             for argument in node.args:
                 yield from self._in_expression(argument, span, calls, steps)
@@ -151,7 +138,7 @@ class ValueSources:
     def _of_definition(self, text: str, span: Span, outer: Calls, keys: Keys, steps: int) -> Iterator[ValueSource]:
         """Yield the sources of the text of a property or argument."""
         alone = _EXPRESSION.fullmatch(text.strip())
-        if alone is not None and (keys or _path_of(alone[1]) is not None):
+        if alone is not None and (keys or path_of(alone[1]) is not None):
             yield from self._of_keys(ast.parse(alone[1].strip(), mode="eval").body, keys, span, outer, steps)
         elif keys:
             yield from self._of_keys(ast.parse(text.strip(), mode="eval").body, keys, span, outer, steps)
@@ -164,25 +151,26 @@ class ValueSources:
         """Yield the sources of an item of an expression."""
         if steps > _MAX_STEPS:
             raise UnresolvedError
-        path = _path(node)
-        if path is not None:
-            yield from self._of_name(path[0], (*path[1], *keys), calls, steps + 1)
+        named = path(node)
+        if named is not None:
+            yield from self._of_name(named[0], (*named[1], *keys), calls, steps + 1)
             return
         while isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
             key = node.slice.value
             keys, node = (key if isinstance(key, int) else str(key), *keys), node.value
-        if isinstance(node, ast.Call) and _called(node) == "load_yaml" and node.args:
-            yield self._in_yaml(node.args[0], keys)
+        if isinstance(node, ast.Call) and called(node) == "load_yaml" and node.args:
+            at, value = self._yaml.value(node.args[0], keys)
+            yield ValueSource(Span(at.file, at.line, at.column, at.line, at.column + len(value)), value)
             return
-        item = _item(node, keys[0]) if keys else node
-        if item is None:
+        part = item(node, keys[0]) if keys else node
+        if part is None:
             raise UnresolvedError
-        if keys[1:] or _path(item) is not None:
-            yield from self._of_keys(item, keys[1:], span, calls, steps + 1)
-        elif isinstance(item, ast.Constant):
-            yield ValueSource(span, str(item.value))
+        if keys[1:] or path(part) is not None:
+            yield from self._of_keys(part, keys[1:], span, calls, steps + 1)
+        elif isinstance(part, ast.Constant):
+            yield ValueSource(span, str(part.value))
         else:
-            yield from self._in_expression(item, span, calls, steps + 1)
+            yield from self._in_expression(part, span, calls, steps + 1)
 
     def _definition(self, name: str, calls: Calls) -> tuple[str, Span, Calls] | None:
         """Return the text of a parameter or property, its place and the macro calls around it."""
@@ -263,51 +251,6 @@ class ValueSources:
                     found.setdefault(written["name"].value, source)
         return found
 
-    def _in_yaml(self, file: ast.expr, keys: Keys) -> ValueSource:
-        """Return the value of some keys in the YAML file that an expression names."""
-        named = [str(node.value) for node in ast.walk(file) if isinstance(node, ast.Constant)]
-        paths = [path for path in self._model.expanded.files if path.suffix in _YAML]
-        if len(paths) > 1:
-            ends = [part.rpartition(")")[2].strip("/") for part in named]
-            paths = [path for path in paths if all(end in str(path) for end in ends)]
-        found = [setting for path in paths if (setting := self._setting(path, keys)) is not None]
-        if len(found) != 1 or found[0].value is None:
-            error = UnresolvedError()
-            if len(paths) == 1:
-                error.lacking = next(
-                    (
-                        (group, keys[at])
-                        for at in range(len(keys))
-                        if self._setting(paths[0], keys[: at + 1]) is None
-                        and (group := self._setting(paths[0], keys[:at])) is not None
-                    ),
-                    None,
-                )
-            raise error
-        at, value = found[0].position, found[0].value
-        return ValueSource(Span(at.file, at.line, at.column, at.line, at.column + len(value)), value)
-
-    def _setting(self, path: Path, keys: Keys) -> Settings | None:
-        if path not in self._yaml:
-            from urdfkit.description.control.parameter_yaml import parse_settings
-
-            try:
-                self._yaml[path] = parse_settings(self._source(path), separator="\0")
-            except (DescriptionError, ResourceError):
-                self._yaml[path] = None
-        found = self._yaml[path]
-        for key in keys:
-            if found is not None and found.items is not None:
-                found = (
-                    found.items[key] if isinstance(key, int) and -len(found.items) <= key < len(found.items) else None
-                )
-            elif found is not None:
-                found = found.children.get(str(key))
-        return found
-
-    def _source(self, path: Path) -> Source:
-        return read_source(path, shown_as=shown_path(path), texts=self._model.texts)
-
 
 def _one(tags: list[Tag], source: Source, calls: Calls) -> tuple[str, Span, Calls]:
     """Return the value of the only definition of a property."""
@@ -320,38 +263,3 @@ def _one(tags: list[Tag], source: Source, calls: Calls) -> tuple[str, Span, Call
 
 def _defines(tag: Tag, name: str) -> bool:
     return tag.name == "xacro:property" and (of := tag.attributes.get("name")) is not None and of.value == name
-
-
-def _path_of(expression: str) -> tuple[str, Keys] | None:
-    return _path(ast.parse(expression.strip(), mode="eval").body)
-
-
-def _path(node: ast.expr) -> tuple[str, Keys] | None:
-    """Return the name and the keys of ``name['key'][0].key``; None for other expressions."""
-    keys: list[str | int] = []
-    while not isinstance(node, ast.Name):
-        if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
-            key = node.slice.value
-            keys.append(key if isinstance(key, int) else str(key))
-        elif isinstance(node, ast.Attribute):
-            keys.append(node.attr)
-        else:
-            return None
-        node = node.value
-    return node.id, tuple(reversed(keys))
-
-
-def _called(node: ast.Call) -> str:
-    return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-
-
-def _item(node: ast.expr, key: str | int) -> ast.expr | None:
-    """Return an item of a list, dictionary or call of ``dict``."""
-    if isinstance(node, (ast.List, ast.Tuple)) and isinstance(key, int) and -len(node.elts) <= key < len(node.elts):
-        return node.elts[key]
-    if isinstance(node, ast.Dict):
-        pairs = zip(node.keys, node.values, strict=True)
-        return next((value for at, value in pairs if isinstance(at, ast.Constant) and at.value == key), None)
-    if isinstance(node, ast.Call) and _called(node) == "dict":
-        return next((each.value for each in node.keywords if each.arg == key), None)
-    return None
