@@ -44,6 +44,27 @@ except KeyboardInterrupt:
         assert process.wait(PATIENCE) == 7
 
 
+@pytest.mark.parametrize("statement", ["import optional", "Finalized()"])
+@pytest.mark.parametrize(("how", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_is_not_lost_where_exceptions_are_ignored(statement, how, status, tmp_path):
+    raised = f"signal.raise_signal({int(how)})"
+    (tmp_path / "optional.py").write_text(f"import signal\ntry: {raised}\nexcept BaseException: pass\n")
+    code = f"""
+import signal, sys, time
+from urdfkit.app.termination import ended_by_signals
+class Finalized:
+    def __del__(self): {raised}
+try:
+    with ended_by_signals():
+        {statement}
+        time.sleep({PATIENCE})
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+    with running([sys.executable, "-c", code], cwd=tmp_path) as process:
+        assert process.wait(PATIENCE / 2) == status
+
+
 def test_ctrl_c_at_a_question_leaves_the_line(tmp_path, monkeypatch):
     class Terminal(io.StringIO):
         def isatty(self):

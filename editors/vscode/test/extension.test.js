@@ -12,6 +12,7 @@ const path = require("node:path");
 const command = (process.env.URDFKIT_COMMAND || "urdfkit").split("\n");
 const missing = spawnSync(command[0], [...command.slice(1), "--version"]).status !== 0;
 const skip = missing && `cannot run \`${command.join(" ")} --version\`; install urdfkit, or set URDFKIT_COMMAND`;
+const timeout = 120000; // milliseconds
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "urdfkit-"));
 const file = path.join(folder, "a.urdf");
 fs.writeFileSync(file, '<robot name="a"><link name="b"/></robot>');
@@ -61,7 +62,7 @@ test("activation starts the language server and registers the commands of packag
   assert.deepStrictEqual(clients[0].server, { command: command[0], args: [...command.slice(1), "lsp"] });
 });
 
-test("the preview shows the page of urdfkit view, once for a file, and ends with its panel", { skip }, async () => {
+test("the preview shows the page of urdfkit view, once for a file, and ends with its panel", { skip, timeout }, async () => {
   registered["urdfkit.preview"]();
   registered["urdfkit.preview"]();
   assert.strictEqual(panels.length, 1);
