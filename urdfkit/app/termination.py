@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import inspect
 import signal
 import sys
 import threading
@@ -41,7 +42,7 @@ def ended_by_signals() -> Iterator[None]:
     before = {}
     ended: list[int] = []
     hook = sys.unraisablehook
-    imports = _imports(sys._getframe())
+    imports = _imports(inspect.currentframe())
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         if _imports(frame) > imports:
