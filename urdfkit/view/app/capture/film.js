@@ -27,7 +27,7 @@ export async function film(viewport, each, patience = PATIENCE) {
   const parts = [];
   let fault = null;
   recorder.addEventListener("dataavailable", ({ data }) => data.size && parts.push(data));
-  recorder.addEventListener("error", ({ error }) => (fault = error ?? new Error("the browser could not encode the film")));
+  recorder.addEventListener("error", ({ error }) => (fault = error ?? new Error("the browser could not encode the video")));
   const stopped = new Promise((resolve) => recorder.addEventListener("stop", resolve));
   try {
     recorder.start(250);

@@ -55,7 +55,7 @@ export function capture(page) {
   const pixels = (id, value, name) => numberField({ id, min: 16, max: largest, step: 10, whole: true, unit: "px", value, "aria-label": name });
   const [width, height] = [pixels("shot-width", 1920, "Width of screenshots [px]"), pixels("shot-height", 1080, "Height of screenshots [px]")];
   const sizes = h("div.row.inside", { hidden: true }, width, "×", height, "px");
-  const sized = check("Own size of screenshots", { id: "shot-sized", changed: (on) => (sizes.hidden = !on) });
+  const sized = check("Custom size of screenshots", { id: "shot-sized", changed: (on) => (sizes.hidden = !on) });
   const clear = check("Transparent ground and sky", { id: "shot-transparent" });
   const options = () => ({ transparent: clear.box.checked, ...(sized.box.checked && { width: width.valueAsNumber, height: height.valueAsNumber }) });
   const shoot = () => picture(page, options()).then((blob) => keep(blob, `${stem(page)}.png`), (error) => page.toast(error.message, "error"));

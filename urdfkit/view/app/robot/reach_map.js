@@ -43,7 +43,7 @@ export function reach(page) {
     const bar = h("div", { id: "reach-colours" });
     bar.style.cssText = `height: .8rem; border-radius: .3rem; background: linear-gradient(to right, ${ramp})`;
     const ends = h("p.quiet", { id: "reach-ends" }, "score 0 (left) to 1 (right)");
-    const least = slider("Least score", { id: "reach-least", min: 0, max: 1, value: 0, text: (v) => short(v, 2), moved: (v) => ((shown.least = v), draw()) });
+    const least = slider("Minimum score", { id: "reach-least", min: 0, max: 1, value: 0, text: (v) => short(v, 2), moved: (v) => ((shown.least = v), draw()) });
     panel.body.replaceChildren(h("p", {}, `${map.tip} in ${map.base}`), h("label.stacked", { for: "reach-axis" }, "Cells", axes), layer, least, bar, ends, words);
   }
 
