@@ -203,7 +203,7 @@ def test_a_screenshot_and_a_turn_are_kept(page, keep) -> None:
         assert len(written) > 2000
     never = "MediaRecorder.prototype.start = () => {}; MediaRecorder.prototype.requestData = () => {}"
     assert "no frame" in page.evaluate(f"{{ {never} }}; urdfkit.capture.film(() => false, 100).catch((e) => e.message)")
-    page.get_by_label("Own size of screenshots").check()
+    page.get_by_label("Custom size of screenshots").check()
     page.get_by_label("Width of screenshots").fill("400")
     page.get_by_label("Height of screenshots").fill("300")
     page.get_by_label("Transparent ground and sky").check()
