@@ -176,9 +176,6 @@ def _number(message: dict[str, Any], name: str) -> int:
     return int(value)
 
 
-DEFAULT_PORT = 9090
-
-
 def serve_rosbridge(
     graph: Graph, address: Address, *, origins: Sequence[str] = (), report: Callable[[str], None]
 ) -> WebSocketServer:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.source import Expansion, Position, Source, Span
+from urdfkit.description.xml.source import Expansion, Source, Span
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
@@ -178,11 +178,6 @@ _URDF = frozenset(("link", "joint", "material", "origin", "visual", "collision",
 _PYTHON = frozenset(
     ("and", "or", "not", "if", "else", "in", "is", "for", "lambda", "True", "False", "None", "pi", "e", "xacro", "math")
 )
-
-
-def position_of(span: Span) -> Position:
-    """Return the start position of a span."""
-    return Position(span.file, span.line, span.column)
 
 
 def parameters_around(tag: Tag | None) -> dict[str, tuple[int, int]]:

@@ -11,7 +11,6 @@ from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, did_you_mean
 
-MODEL_SUFFIXES = (".sdf", ".urdf", ".xacro", ".world")
 _REMOTE = re.compile(r"^(https?|fuel)://", re.IGNORECASE)
 
 

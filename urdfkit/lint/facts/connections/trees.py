@@ -22,11 +22,6 @@ def launch_trees(model: Model) -> tuple[LaunchContents, ...]:
     return tuple(each for each in found if each.path.resolve() not in included)
 
 
-def nodes_of(model: Model) -> list[LaunchNode]:
-    """Return the nodes of all launch files."""
-    return [node for tree in launch_trees(model) for node in tree.nodes]
-
-
 def full_name(node: LaunchNode, name: str) -> str:
     """Return a name as a node resolves it, without slashes at its ends."""
     return name.strip("/") if name.startswith("/") else f"{node.namespace}/{name}".strip("/")

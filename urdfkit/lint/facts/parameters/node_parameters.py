@@ -22,7 +22,6 @@ Defects = Iterator[tuple[Node, str]]
 _INTEGER = r"[-+]?\d+"
 _DOUBLE = r"[-+]?(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][-+]?\d+)?"
 _TRUTH = r"(?i:true|false|yes|no|on|off|y|n)"
-_FREE = {"text": 0, "bool": 1, "int": 2, "double": 3}
 
 
 def node_defects(source: Source) -> Defects:

@@ -24,8 +24,6 @@ _OVERLAP = 0.3
 _FEWEST = 4
 """Smallest number of joints on the surfaces of their parent links of which one stands out."""
 
-Corners = tuple[Vector, Vector]
-
 
 @record(eq=False)
 class Place:
