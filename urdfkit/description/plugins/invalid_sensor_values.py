@@ -45,6 +45,9 @@ NUMBERS = frozenset(
 _MAX_ANGLE = 6.3
 """Slightly more than a full turn [rad], because descriptions often contain the rounded value 6.2832."""
 
+_FAR = 1.0
+"""Distance that is too large for the minimum of the range of a lidar, and too small for its maximum [m]."""
+
 WIDE = ("wideanglecamera", "wide_angle_camera")
 """Types of cameras with a field of view of up to a full turn (sdformat, camera.sdf: ``horizontal_fov`` to 6.283186)."""
 
@@ -94,7 +97,8 @@ def senseless_scan(lidar: Element) -> Senseless:
     if near < 0.0:
         yield (reach and reach.find("min")) or lidar, f"<min> is {near:g} m; it must be zero or greater"
     elif not isnan(near + far) and not near < far:
-        yield reach or lidar, f"the range of the lidar, {near:g} m to {far:g} m, is empty"
+        place = reach and (reach.find("min" if near >= _FAR else "max") or reach.find("min") or reach.find("max"))
+        yield place or reach or lidar, f"the range of the lidar, {near:g} m to {far:g} m, is empty"
 
 
 def _senseless_fan(fan: Element) -> Senseless:
@@ -111,10 +115,11 @@ def _senseless_fan(fan: Element) -> Senseless:
     elif isfinite(samples * resolution) and round(samples * resolution) < 1:
         yield fan, f"<{fan.tag}> has {samples:g} samples at a resolution of {resolution:g}, which is less than one"
     low, high = _number(fan, "min_angle", 0.0), _number(fan, "max_angle", 0.0)
+    place = fan.find("max_angle" if high < 0.0 else "min_angle") or fan
     if low > high:
-        yield fan, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
+        yield place, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
     elif low == high != 0.0 and samples > 1:
-        yield fan, f"<{fan.tag}> has {samples:g} samples, but <min_angle> and <max_angle> are both {low:g} rad"
+        yield place, f"<{fan.tag}> has {samples:g} samples, but <min_angle> and <max_angle> are both {low:g} rad"
 
 
 def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:

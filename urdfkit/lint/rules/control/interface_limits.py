@@ -90,7 +90,8 @@ class InterfaceLimits(RobotRule):
         if low is not None and high is not None and (low > high or low == high != 0.0):
             relation = "greater than" if low > high else "equal to"
             message = f"{name} command of joint `{joint.name}`: min {low:g} is {relation} max {high:g}"
-            yield self.at(model, params["min"], message, joint=joint.name)
+            wrong = "max" if high < 0.0 or low == 0.0 else "min"
+            yield self.at(model, params[wrong], message, joint=joint.name)
             return
         allowed = _limits(joint, name)
         if allowed is None:

@@ -4,6 +4,7 @@ from math import dist, inf, prod
 
 from urdfkit.description.urdf.geometry import box_around, box_around_all
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Sphere, Vector
+from urdfkit.lint.facts.twins import decimal_slip
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _ALIKE = 0.15
@@ -38,7 +39,8 @@ class CollisionUnlikeVisual(RobotRule):
     Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in different
     poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision shape that
     is at least three times larger or smaller than a visual shape of the same kind in all directions, a collision box
-    for which this holds on two sides, and wheels whose visual and collision radius differ.
+    for which this holds on two sides, a wrong decimal point in one direction, and wheels whose visual and collision
+    radius differ.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was
@@ -84,7 +86,7 @@ class CollisionUnlikeVisual(RobotRule):
                 shape = link.collisions[0].element
                 geometry = shape.find("geometry")
                 place = shape.find(part) or shape
-                if part == "shape" and geometry is not None and geometry.children:
+                if part != "origin" and geometry is not None and geometry.children:
                     place = geometry.children[0]
                 yield self.at(
                     model, place, f"collision shape of link `{link.name}` {message}", link=link.name, help=help
@@ -145,6 +147,10 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     times = prod(factors)
     is_one_way = min(factors, default=0.0) > 1.0 - _ALIKE or max(factors, default=inf) < 1.0 + _ALIKE
     is_cube = len(set(lengths[1])) == 1  # A cube around a stick is on purpose.
+    slip = [factor for factor in factors if abs(factor - 1.0) > 1e-3]
+    if len(slip) == 1 < len(factors) and decimal_slip(slip[0], 1.0):
+        message = f"is {slip[0]:.3g} times as large as the visual shape in one direction"
+        return message, "check the decimal point", "geometry"
     unlike = [factor for factor in factors if not 1.0 / _TIMES < factor < _TIMES]
     if len(factors) == 3 and len(unlike) > 1 and is_one_way and not is_cube:
         message = f"is {times:.3g} times as large as the visual shape"

@@ -1,5 +1,8 @@
 """I518 twins-differ."""
 
+from collections import Counter
+from collections.abc import Iterator
+
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.twins import Twins, decimal_slip, links_of, twins
@@ -60,28 +63,40 @@ class TwinsDiffer(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each pair of links with different masses, else with different sizes."""
+        """Yield a finding for each link whose mass, else size, differs from that of its counterparts."""
         if model.is_damaged:
             return
-        for pair in twins(model):
-            links = links_of(pair, model)
-            if links is None or any(not link.name or links[0] is links[1] for link in links):
+        differences = list(_differences(model))
+        counts = Counter((what, link.name) for links, what, *_ in differences for link in links)
+        found: set[tuple[str, str]] = set()
+        for links, what, values, unit in differences:
+            wrong = links[values.index(max(values))]
+            if counts[what, links[0].name] != counts[what, links[1].name]:
+                wrong = max(links, key=lambda link: counts[what, link.name])
+            if not found.isdisjoint((what, link.name) for link in links):
                 continue
-            masses = [link.inertial.mass or 0.0 if link.inertial is not None else 0.0 for link in links]
-            extents = [model.extents.get(link.name) for link in links]
-            sizes = [extent.diagonal if extent is not None else 0.0 for extent in extents]
-            scales = [_scale(link) for link in links]
-            for values, what, unit in ((masses, "mass", "kg"), (sizes, "size", "m"), (scales, "scale", "")):
-                if min(values) <= 0.0 or not _differ(pair, values):
-                    continue
-                wrong = links[values.index(max(values))]
-                element = _place(wrong, what)
-                x, y = (f"{value:.3g} {unit}".strip() for value in values)
-                what_differs = "the scale of their meshes" if what == "scale" else what
-                message = f"`{links[0].name}` and `{links[1].name}` differ in {what_differs}: {x} and {y}"
-                help = "check the decimal points and units of both"
-                attribute = "value" if what == "mass" else None
-                yield self.at(model, element, message, attribute=attribute, link=wrong.name, help=help)
+            found.add((what, wrong.name))
+            x, y = (f"{value:.3g} {unit}".strip() for value in values)
+            what_differs = "the scale of their meshes" if what == "scale" else what
+            message = f"`{links[0].name}` and `{links[1].name}` differ in {what_differs}: {x} and {y}"
+            help = "check the decimal points and units of both"
+            attribute = {"mass": "value", "scale": "scale"}.get(what)
+            yield self.at(model, _place(wrong, what), message, attribute=attribute, link=wrong.name, help=help)
+
+
+def _differences(model: Model) -> Iterator[tuple[tuple[Link, Link], str, list[float], str]]:
+    """Yield the links of each pair that differs, with what differs, its values and its unit."""
+    for pair in twins(model):
+        links = links_of(pair, model)
+        if links is None or any(not link.name or links[0] is links[1] for link in links):
+            continue
+        masses = [link.inertial.mass or 0.0 if link.inertial is not None else 0.0 for link in links]
+        extents = [model.extents.get(link.name) for link in links]
+        sizes = [extent.diagonal if extent is not None else 0.0 for extent in extents]
+        scales = [_scale(link) for link in links]
+        for values, what, unit in ((masses, "mass", "kg"), (sizes, "size", "m"), (scales, "scale", "")):
+            if min(values) > 0.0 and _differ(pair, values):
+                yield links, what, values, unit
                 break
 
 
@@ -95,7 +110,8 @@ def _place(link: Link, what: str) -> Element:
     """Return the element with the mass or the shape of a link."""
     found = link.inertial.element.find("mass") if what == "mass" and link.inertial is not None else None
     if what in ("size", "scale"):
-        found = next((shape.element.find("geometry") for shape in shapes_of(link)), None)
+        geometry = next((shape.element.find("geometry") for shape in shapes_of(link)), None)
+        found = geometry.children[0] if geometry is not None and geometry.children else geometry
     return found or link.element
 
 

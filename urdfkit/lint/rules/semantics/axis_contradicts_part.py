@@ -86,13 +86,33 @@ class AxisContradictsPart(RobotRule):
             message = None if found & {first.name, second.name} else _contradiction(pair)
             if message is not None and not (_is_disc(first, model) and _is_disc(second, model)):
                 found |= {first.name, second.name}
-                wrong = second if second.element.find("axis") is not None else first
-                yield self._at(wrong, message, model, (first.name, second.name))
+                wrong = _odd_one(pair, pairs)
+                yield self._at(wrong, message, model, (first.name, second.name), _place(pair))
 
-    def _at(self, joint: Joint, message: str, model: Model, names: tuple[str, ...] = ()) -> Finding:
-        element = joint.element.find("axis") or joint.element
+    def _at(
+        self, joint: Joint, message: str, model: Model, names: tuple[str, ...] = (), place: str = "axis"
+    ) -> Finding:
+        element = joint.element.find(place) or joint.element
+        attribute = "rpy" if place == "origin" else "xyz"
         help = "check <axis> and the rpy of <origin>"
-        return self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
+        return self.at(model, element, message, attribute=attribute, joint=joint.name, help=help, names=names)
+
+
+def _odd_one(pair: Twins, pairs: list[Twins]) -> Joint:
+    """Return the joint of a pair whose axis differs from that of more counterparts."""
+    odd = dict.fromkeys((pair.first.name, pair.second.name), 0)
+    for each in pairs:
+        for joint, other in ((each.first, each.second), (each.second, each.first)):
+            if joint.name in odd and _cosine(_axis_in_parent(joint), _axis_in_parent(other)) < _MIN_UPRIGHT:
+                odd[joint.name] += 1
+    if odd[pair.first.name] > odd[pair.second.name] or pair.second.element.find(_place(pair)) is None:
+        return pair.first
+    return pair.second
+
+
+def _place(pair: Twins) -> str:
+    """Return the tag of the element in which the joints of a pair differ."""
+    return "origin" if pair.first.axis == pair.second.axis else "axis"
 
 
 def _defect(joint: Joint, axis: Vector, pair: Twins | None, model: Model) -> str | None:
@@ -121,15 +141,23 @@ def _defect(joint: Joint, axis: Vector, pair: Twins | None, model: Model) -> str
 def _contradiction(pair: Twins) -> str | None:
     """Return how the axes of twins contradict each other; None if they do not."""
     first, second = pair.first, pair.second
-    in_parent = [rotate(rotation_of(joint.origin.rpy), joint.axis) for joint in (first, second)]
+    in_parent = [_axis_in_parent(joint) for joint in (first, second)]
     names = f"`{first.name}` and `{second.name}`"
     both = ((first.axis, second.axis), tuple(in_parent))
     if all(max(abs(abs(a) - abs(b)) for a, b in zip(*axes, strict=True)) > _UNLIKE for axes in both):
         return f"the axes of {names} are not parallel"
-    dot = sum(a * b for a, b in zip(*in_parent, strict=True))
-    if first.type == "continuous" and not pair.are_sides and dot < -_MIN_UPRIGHT and "heel" in first.name:
+    cosine = _cosine(*in_parent)
+    if first.type == "continuous" and not pair.are_sides and cosine < -_MIN_UPRIGHT and "heel" in first.name:
         return f"the axes of {names} point in opposite directions"
     return None
+
+
+def _axis_in_parent(joint: Joint) -> Vector:
+    return rotate(rotation_of(joint.origin.rpy), joint.axis)
+
+
+def _cosine(first: Vector, second: Vector) -> float:
+    return sum(a * b for a, b in zip(first, second, strict=True))
 
 
 def _is_disc(joint: Joint, model: Model) -> bool:
