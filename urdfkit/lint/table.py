@@ -237,6 +237,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (f"{_LAUNCH} {_YAML}", "packaging.topic_unconnected", "TopicUnconnected"),
     (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
     (_YAML, "packaging.parameter_value_invalid", "ParameterValueInvalid"),
+    (_YAML, "packaging.parameter_unlike_others", "ParameterUnlikeOthers"),
     ("package.xml", "packaging.manifest_invalid", "ManifestInvalid"),
     ("package.xml", "packaging.build_file_inconsistent", "BuildFileInconsistent"),
     (f"{_LAUNCH} {_YAML}", "packaging.parameter_type_wrong", "ParameterTypeWrong"),

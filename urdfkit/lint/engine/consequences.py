@@ -60,6 +60,12 @@ _OF_TREE = ("T201", "T202", "T205", "T206", "X103", "X104", "X124")
 _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
 """Findings on a robot whose package.xml names the build system of the other version of ROS."""
 
+_ON_PARAMETERS = (
+    *("K956", "K958", "K959", "K960", "K962", "K967", "K969", "K971", "K974", "K975", "K977", "K979", "K981", "K982"),
+    *("K983", "K984", "K985", "M108", "M109", "M111", "M112"),
+)
+"""Codes of findings in YAML with a more precise message than a comparison with the other entries of a file."""
+
 _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("E010", ""), "line", ("X124", "")),
     (("E014", "attribute"), "line", ("E009", "")),
@@ -79,6 +85,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K967", ""), "line", ("K956", "")),
     (("K968", ""), "line", ("K980", "")),
     (("K969", ""), "line", ("K977", "")),
+    *(((code, ""), "line", ("K992", "")) for code in _ON_PARAMETERS),
     (("K971", ""), "line", ("K956", "")),
     (("K971", ""), "line", ("K974", "")),
     (("K971", ""), "line", ("K977", "")),

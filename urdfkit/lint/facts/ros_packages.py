@@ -156,8 +156,10 @@ def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | 
 
 
 def is_slip(name: str, other: str) -> bool:
-    """Return whether two names differ by one letter, by a separator, or by the order of letters in one place."""
-    if name.replace("_", "") == other.replace("_", "") or name.replace("-", "_") == other.replace("-", "_"):
+    """Return whether two names differ by a letter, by separators and case, or by the order of letters in one place."""
+    if name.replace("_", "").lower() == other.replace("_", "").lower() or name.replace("-", "_") == other.replace(
+        "-", "_"
+    ):
         return True
     if abs(len(name) - len(other)) > 1:
         return False
