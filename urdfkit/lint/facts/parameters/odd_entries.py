@@ -99,7 +99,7 @@ def _flat(section: Node) -> dict[tuple[str, ...], tuple[Node, Node]]:
 
 
 def _odd_names(name: str, values: list[Node]) -> Defects:
-    """Yield the name that differs by a slip from the one that at least two of the other sections have."""
+    """Yield the name that differs by a slip from the name in at least two of the other sections."""
     count = Counter(value.text for value in values)
     if len(values) < _FEWEST or len(count) < 2:
         return
