@@ -18,6 +18,7 @@ from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.tables import ORDERED
 
 _RANGES = """
+cmd_vel_timeout|traction_joint_name|10 10000 ms
 cmd_vel_timeout reference_timeout|type,wheel_separation,wheelbase,wheel_radius|0.01 10 s
 timeout|priority|0.01 60 s
 velocity_timeout sensor_timeout transform_tolerance transform_timeout stop_pub_timeout source_timeout||0.001 30 s
@@ -77,7 +78,10 @@ allowed_goal_duration_margin||0.001 600 s
 allowed_start_tolerance||0.00001 3.2
 goal|trajectory|0.00001 3.2
 """
-"""Parameters, then parameters of which one is in the same group (any if empty), then range and unit."""
+"""Parameters, then parameters of which one is in the same group (any if empty), then range and unit.
+
+The first row of a parameter that fits its group counts: tricycle_controller has its timeout in milliseconds.
+"""
 
 _ANGLES = {
     "magnetic_declination_radians": 1.6,
@@ -89,15 +93,15 @@ _Row = tuple[tuple[str, ...], float, float, str]
 
 
 @cache
-def _ranges() -> dict[str, _Row]:
-    """Return parameter → parameters next to it, least and greatest sensible value and unit."""
-    found: dict[str, _Row] = {}
+def _ranges() -> dict[str, list[_Row]]:
+    """Return parameter → rows of parameters next to it, least and greatest sensible value and unit."""
+    found: dict[str, list[_Row]] = {}
     for row in _RANGES.strip().splitlines():
         names, siblings, limits = row.split("|")
         low, high, *unit = limits.split()
         for name in names.split():
             siblings_of = tuple(siblings.split(",")) if siblings else ()
-            found[name] = (siblings_of, float(low), float(high), unit[0] if unit else "")
+            found.setdefault(name, []).append((siblings_of, float(low), float(high), unit[0] if unit else ""))
     return found
 
 
@@ -129,8 +133,8 @@ def out_of_range(groups: Iterable[Node]) -> Iterator[tuple[Node, str]]:
             most, angle = _ANGLES.get(name), number_of(turn) if turn.kind == "text" else None
             if most is not None and angle is not None and abs(angle) > most:
                 yield turn, f"`{name}` is {angle:g} rad, more than {most:g} rad; convert it if it is in degrees"
-            row = ranges.get(key.text)
-            if row is None or (row[0] and names.isdisjoint(row[0])):
+            rows = (row for row in ranges.get(key.text, ()) if not row[0] or not names.isdisjoint(row[0]))
+            if (row := next(rows, None)) is None:
                 continue
             _, low, high, unit = row
             for item in (value, *(inner for _, inner in value.entries if key.text.startswith("scale_"))):
