@@ -243,6 +243,11 @@ def test_a_correct_cmake_file_is_silent(cmake, old, new):
             "14: folder `confg` does not exist in this package; did you mean `config`",
         ),
         ('"config/*.yaml"', '"config/*.yml"', "14: `config/cart.yaml` is not installed, but launch/cart.launch.xml:2"),
+        (
+            'glob("config/*.yaml") +',
+            'glob("params/*.yaml") +',
+            "14: folder `params` does not exist in this package; launch files use `config`",
+        ),
         ("*.launch.*", "*.launch.py", "13: launch file `launch/cart.launch.xml` is not installed"),
         ('"resource/" +', '"resources/" +', "11: `resources/cart` does not exist in this package"),
         ("cart.drive:", "crt.drive:", "17: module `crt` does not exist in this package; did you mean `cart`?"),
@@ -300,3 +305,76 @@ def test_a_module_that_imports_its_function_is_accepted(python):
     for text in ("from cart.other import main\n", "from cart.other import *\n", "main = print\n", "def main(:\n"):
         (python / "cart" / "drive.py").write_text(text)
         assert found(python) == []
+
+
+LOOP = "foreach(folder launch urdf)\n  install(DIRECTORY ${folder} DESTINATION share/${PROJECT_NAME})\nendforeach()\n"
+LIST = "set(FOLDERS launch urdf)\nforeach(folder IN LISTS FOLDERS)\n  install(DIRECTORY ${folder}"
+LIST += " DESTINATION share/${PROJECT_NAME})\nendforeach()\n"
+PLAIN = "install(DIRECTORY launch urdf\n  DESTINATION share/${PROJECT_NAME})\n"
+
+
+@pytest.mark.parametrize(
+    ("install", "expected"),
+    [
+        (LOOP, []),
+        (LIST, []),
+        (LOOP.replace("launch urdf", "lanch urdf"), ["CMakeLists.txt:4: `lanch` does not exist in this package"]),
+        (LOOP.replace("launch urdf", "urdf"), ["CMakeLists.txt:4: folder `launch` is not installed, but it contains"]),
+        (LIST.replace("launch urdf", "urdf"), ["CMakeLists.txt:4: folder `launch` is not installed, but it contains"]),
+        (LOOP.replace("launch urdf", "${OTHERS}"), []),
+    ],
+)
+def test_folders_that_a_loop_installs(cmake, install, expected):
+    (cmake / "CMakeLists.txt").write_text(CMAKE.replace(PLAIN, install))
+    reported = found(cmake)
+    assert len(reported) == len(expected)
+    assert all(line.startswith(start) for line, start in zip(reported, expected, strict=True)), reported
+
+
+CODE = """import rclpy
+from sensor_msgs.msg import LaserScan
+from rcl_interfaces.msg import SetParametersResult
+try:
+    import cv_bridge
+except ImportError:
+    import tf2_ros
+import some_module
+"""
+
+
+@pytest.mark.parametrize(
+    ("needed", "expected"),
+    [
+        (["rclpy", "sensor_msgs"], []),
+        (["rclpy", "common_interfaces"], []),
+        (["rclpy"], ["missing dependency on `sensor_msgs`"]),
+        (["sensor_msgs"], ["missing dependency on `rclpy`"]),
+    ],
+)
+def test_packages_that_python_code_imports_are_dependencies(cmake, needed, expected):
+    lines = "".join(f"<exec_depend>{name}</exec_depend>\n  " for name in needed)
+    (cmake / "package.xml").write_text(MANIFEST.replace("<exec_depend>launch_ros", f"{lines}<exec_depend>launch_ros"))
+    (cmake / "scripts").mkdir(exist_ok=True)
+    (cmake / "scripts/scan.py").write_text(CODE)
+    (cmake / "test").mkdir(exist_ok=True)
+    (cmake / "test/test_scan.py").write_text("import cv_bridge\n")
+    assert [one.message for one in lint(cmake, target="ros2") if one.code == "K956"] == expected
+
+
+@pytest.mark.parametrize(
+    ("call", "expected"),
+    [
+        ("find_package(rclcpp REQUIRED)", ["missing dependency on `rclcpp`"]),
+        (
+            "foreach(name rclcpp launch_ros)\n  find_package(${name} REQUIRED)\nendforeach()",
+            ["missing dependency on `rc"],
+        ),
+        ("find_package(launch_ros REQUIRED)\nfind_package(Eigen3 REQUIRED)\nfind_package(octomap REQUIRED)", []),
+    ],
+)
+def test_packages_that_cmake_finds_are_dependencies(cmake, call, expected):
+    tool = "find_package(ament_cmake REQUIRED)"
+    (cmake / "CMakeLists.txt").write_text(CMAKE.replace(tool, f"{tool}\n{call}"))
+    reported = [one.message for one in lint(cmake, target="ros2") if one.code == "K956"]
+    assert len(reported) == len(expected)
+    assert all(map(str.startswith, reported, expected)), reported

@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.facts.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.model.tags import Tag
 from urdfkit.record import record

@@ -67,6 +67,8 @@ warehouse_ros_mongo warehouse_ros_sqlite web_video_server xacro yaml-cpp yaml_cp
 
 _METAPACKAGES = {
     "gazebo_ros_pkgs": "gazebo_dev gazebo_msgs gazebo_plugins gazebo_ros",
+    "common_interfaces": "actionlib_msgs diagnostic_msgs geometry_msgs nav_msgs sensor_msgs shape_msgs std_msgs"
+    " std_srvs stereo_msgs trajectory_msgs visualization_msgs",
     "geometry": "angles eigen_conversions kdl_conversions tf tf_conversions",
     "geometry2": "tf2 tf2_*",
     "image_pipeline": "camera_calibration depth_image_proc image_proc image_publisher image_rotate image_view"

@@ -42,8 +42,8 @@ class LaunchElementInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown element, attribute and substitution, and for missing attributes."""
-        from urdfkit.lint.facts.build_files import is_well_formed
         from urdfkit.lint.facts.launch.ros_version import ros_version
+        from urdfkit.lint.facts.packaging.build_files import is_well_formed
         from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():

@@ -6,8 +6,9 @@ from itertools import pairwise
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
-from urdfkit.lint.facts.cmake_defects import BuildDefect
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
+from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -64,9 +65,10 @@ class BuildFileInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
-        from urdfkit.lint.facts.build_files import build_files, commands
-        from urdfkit.lint.facts.cmake_defects import cmake_defects, misplaced, unbalanced
-        from urdfkit.lint.facts.setup_defects import setup_defects
+        from urdfkit.lint.facts.packaging.build_files import build_files
+        from urdfkit.lint.facts.packaging.cmake_commands import commands
+        from urdfkit.lint.facts.packaging.cmake_defects import cmake_defects, misplaced, unbalanced
+        from urdfkit.lint.facts.packaging.setup_defects import setup_defects
 
         used = _used_paths(model)
         for files in build_files(model):
@@ -136,7 +138,7 @@ class BuildFileInconsistent(RobotRule):
 
     def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
-        from urdfkit.lint.facts.build_files import OPTIONS, misspelt_word
+        from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, misspelt_word
         from urdfkit.lint.fix_builders import nearest
 
         if not command.words or command.words[0][0] not in ("DIRECTORY", "FILES", "PROGRAMS"):
@@ -181,7 +183,7 @@ class BuildFileInconsistent(RobotRule):
 
     def _folders(self, files: BuildFiles, used: dict[str, str]) -> Findings:
         """Yield a finding for each folder that launch files use and that is not installed."""
-        from urdfkit.lint.facts.build_files import installed_folders
+        from urdfkit.lint.facts.packaging.build_files import installed_folders
         from urdfkit.lint.fix_builders import nearest
 
         installed = installed_folders(files)
@@ -194,15 +196,16 @@ class BuildFileInconsistent(RobotRule):
             absent = [name for name in names if not files.has(name)]
             if folder in names or not is_folder(files.folder / folder) or nearest(folder, absent) is not None:
                 continue
-            place = installs[0].start if installs else max(source.text.find("data_files"), 0)
+            start = max(source.text.find("data_files"), 0)
+            last, place = installs[0].folders[-1] if installs else ("data_files", start)
             message = f"folder `{folder}` is not installed, but {use}"
             severity: Severity = "note" if is_catkin else "warning"
-            yield self._at(source, place, "install" if installs else "data_files", message, severity, "folder")
+            yield self._at(source, place, last, message, severity, "folder")
 
     def _programs(self, model: Model, files: BuildFiles) -> Findings:
         """Yield a finding for each script that launch files start and that CMakeLists.txt does not install."""
-        from urdfkit.lint.facts.build_files import commands
         from urdfkit.lint.facts.control.launched_nodes import launches, started
+        from urdfkit.lint.facts.packaging.cmake_commands import commands
 
         source = files.cmake
         if source is None or re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|\binstall_\w+\(", source.text):

@@ -75,7 +75,8 @@ class NotInstalled(RobotRule):
 
 def _install_command(package: Path, model: Model) -> Span | None:
     """Return the word DIRECTORY of the first install() of folders in CMakeLists.txt; None without one."""
-    from urdfkit.lint.facts.build_files import build_files, commands
+    from urdfkit.lint.facts.packaging.build_files import build_files
+    from urdfkit.lint.facts.packaging.cmake_commands import commands
 
     cmake = next((files.cmake for files in build_files(model) if files.folder == package), None)
     for command in commands(cmake) if cmake is not None else ():

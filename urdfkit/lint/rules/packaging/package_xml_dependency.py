@@ -35,6 +35,10 @@ _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
 
 
+_COVERED = {"tf2_ros": "tf2_ros_py", "tf2_py": "tf2_ros"}
+"""Package that code imports → another package that installs it."""
+
+
 class PackageXmlDependency(RobotRule):
     """A package is used without a dependency in package.xml.
 
@@ -44,6 +48,7 @@ class PackageXmlDependency(RobotRule):
     - packages that the files of the robot's package use in ``$(find …)`` and ``package://…``
     - packages that launch files start, include or import, and ``xacro`` if they call it, with the dependencies of their
       own package
+    - packages that the Python code of a package imports, except under a condition, and that its CMakeLists.txt finds
     - packages of the controllers in YAML, if a package of the robot depends on other controller packages (all packages
       of the robot count)
     - packages of the plugins of Nav2 and MoveIt, and of the Gazebo plugin that runs controllers, if the package starts
@@ -131,6 +136,7 @@ class PackageXmlDependency(RobotRule):
                     yield finding
         folders = {package: declared}
         yield from self._check_launch_files(model, folders)
+        yield from self._check_code(model)
         yield from self._check_moveit(model, folders)
         yield from self._check_controllers(model)
         yield from self._check_navigation_plugins(model)
@@ -163,6 +169,25 @@ class PackageXmlDependency(RobotRule):
                 yield from self._not_at_run_time(name, package, model, reported)
                 if name not in declared[package] | disabled and not is_in_metapackage(name, declared[package]):
                     yield self._missing(name, source, start, end, near)
+
+    def _check_code(self, model: Model) -> Findings:
+        """Yield a finding for each package that Python code imports or CMake finds without a dependency."""
+        from urdfkit.lint.facts.packaging.build_files import build_files
+        from urdfkit.lint.facts.packaging.code_packages import packages_found, packages_in_code
+        from urdfkit.lint.facts.ros_packages import is_in_metapackage
+
+        for files in build_files(model):
+            near, manifest = neighbours(files.folder), model.manifest(files.folder)
+            needed = {*_dependencies(manifest, near), *_disabled(files.manifest.text)}
+            if files.name in needed:  # a dependency on the package itself stands for the missing one
+                continue
+            model.expanded.packages.watch(files.folder, ".py")
+            uses = list(packages_in_code(files.folder, near))
+            uses += ((files.cmake, *each) for each in packages_found(files.cmake, near)) if files.cmake else ()
+            for source, name, start, end in uses:
+                is_covered = name in _COVERED and _COVERED[name] in needed
+                if name not in {*needed, files.name} and not is_covered and not is_in_metapackage(name, needed):
+                    yield self._missing(name, source, start, end, set())
 
     def _check_controllers(self, model: Model) -> Findings:
         """Yield a finding for each package of a controller in YAML that none of the related packages depends on."""

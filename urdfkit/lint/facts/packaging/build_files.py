@@ -9,24 +9,10 @@ from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import XmlError
+from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, commands, misspelt_word
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import field, record
-
-
-@record(eq=False)
-class CMakeCommand:
-    """A command of a CMakeLists.txt.
-
-    Attributes:
-        name: its name in lower case.
-        start: offset of the name.
-        words: the arguments with their offsets, without quotes; ``${PROJECT_NAME}`` is not replaced.
-    """
-
-    name: str
-    start: int
-    words: tuple[tuple[str, int], ...]
 
 
 @record(eq=False)
@@ -101,27 +87,16 @@ def is_well_formed(source: Source) -> bool:
     return True
 
 
-def commands(source: Source) -> list[CMakeCommand]:
-    """Return the commands of a CMakeLists.txt; nested parentheses end a command's arguments."""
-    text = re.sub(r"#[^\n]*", lambda at: " " * len(at[0]), source.text)
-    found = []
-    for at in re.finditer(r"([A-Za-z_]\w*)\s*\(([^()]*)\)", text):
-        words = tuple(
-            (word[1] if word[1] is not None else word[0], at.start(2) + word.start() + (word[1] is not None))
-            for word in re.finditer(r"\"([^\"]*)\"|[^\s\"]+", at[2])
-        )
-        found.append(CMakeCommand(at[1].lower(), at.start(1), words))
-    return found
-
-
 def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] | None:
     """Return the folders that a package installs and the commands that install them; None if they are computed."""
     names: set[str] = set()
     installs: list[CMakeCommand] = []
     if files.cmake is not None:
-        if re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|\binstall_\w+\(", files.cmake.text):
+        every = commands(files.cmake)
+        is_loop = any(command.name == "foreach" for command in every)
+        if is_loop or re.search(r"\bGLOB\b|ament_auto_package|\binstall_\w+\(", files.cmake.text):
             return None
-        for command in commands(files.cmake):
+        for command in every:
             words = [word for word, _ in command.words]
             if misspelt_word(command) is not None:
                 return None
@@ -137,25 +112,3 @@ def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] 
         if "walk" in files.setup.text or "rglob" in files.setup.text:
             return None
     return None if any("$" in name or name in (".", "") for name in names) else (names, installs)
-
-
-def misspelt_word(command: CMakeCommand) -> tuple[str, int, str] | None:
-    """Return the first keyword of ``install()`` that is misspelt: word, offset, suggested word; None without one."""
-    from urdfkit.lint.fix_builders import nearest
-
-    for at, (word, start) in enumerate(command.words if command.name == "install" else ()):
-        accepted = _MODES if at == 0 else OPTIONS
-        if word.isupper() and word not in accepted and word not in _OTHERS:
-            near = nearest(word, accepted, cutoff=0.75)
-            if near is not None:
-                return word, start, near
-    return None
-
-
-_MODES = ("CODE", "DIRECTORY", "EXPORT", "FILES", "IMPORTED_RUNTIME_ARTIFACTS", "PROGRAMS", "SCRIPT", "TARGETS")
-_OTHERS = ("COMPONENTS", "CONFIGURATIONS", "OPTION", "PERMISSIONS", "DIRECTORY_PERMISSIONS", "FILE_PERMISSIONS")
-"""First words of ``install()``, and words that resemble an option."""
-
-OPTIONS = frozenset(
-    ("DESTINATION", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "REGEX", "OPTIONAL", "COMPONENT")
-)

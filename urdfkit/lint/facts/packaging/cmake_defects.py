@@ -10,7 +10,8 @@ from pathlib import Path
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.build_files import OPTIONS, BuildFiles, CMakeCommand
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, misspelt_word
 from urdfkit.lint.finding import Severity
 from urdfkit.record import record
 
@@ -76,8 +77,6 @@ def unbalanced(source: Source) -> BuildDefect | None:
 
 def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     """Yield the defects of the commands of a CMakeLists.txt without syntax errors."""
-    from urdfkit.lint.facts.build_files import misspelt_word
-
     yield from _calls(source, every)
     yield from _order(source, every)
     yield from _variables(source, every)
@@ -204,8 +203,6 @@ def misplaced(
         used: folders of the package that launch files use, and the folder of its launch files.
         named: folders whose paths in the share folder other files name.
     """
-    from urdfkit.lint.facts.build_files import OPTIONS
-
     share, right, wrong = f"share/{files.name}", set[str](), list[tuple[str, BuildDefect]]()
     for command in every:
         words = [word for word, _ in command.words]

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.build_files import BuildFiles
-from urdfkit.lint.facts.cmake_defects import BuildDefect
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
 
 
 def setup_defects(files: BuildFiles, source: Source, used: dict[str, str]) -> Iterator[BuildDefect]:
@@ -94,10 +94,14 @@ def _data_files(
     if installed is None or data is None:
         return
     misspelt = set()
-    for text, node, is_pattern, _ in installed:
+    for text, node, is_pattern, to in installed:
         start, end = place(source, node)
         folder = text.rpartition("/")[0] if is_pattern else text
         hint = near_path(files.folder / folder) if folder and "*" not in folder and not files.has(folder) else ""
+        meant = (_text(reader, to) or "").removeprefix(f"share/{files.name}/").strip("/")
+        is_missing = is_pattern and bool(folder) and "*" not in folder and not files.has(folder) and not hint
+        if is_missing and meant in map(_folder_of, used):
+            hint = f"; launch files use `{meant}`"
         if is_pattern and hint:
             misspelt.add(folder)
             message = f"folder `{folder}` does not exist in this package" + hint
@@ -105,6 +109,8 @@ def _data_files(
         elif not is_pattern and not files.has(text):
             message = f"`{text}` does not exist in this package" + hint
             yield BuildDefect(source, start, source.text[start:end], message, kind="missing")
+    # Otherwise, the wrong name in setup.py is the cause.
+    is_named = re.search(rf"[\"'/]{re.escape(files.name)}[\"'/]", source.text) is not None
     left_out: dict[int, list[tuple[str, str]]] = {}
     ends: dict[int, int] = {}
     elsewhere: dict[tuple[int, int], list[tuple[str, str, list[tuple[ast.expr, ast.expr]]]]] = {}
@@ -113,7 +119,7 @@ def _data_files(
         beside = [node for text, node, *_ in installed if folder and text.rpartition("/")[0] == folder]
         matching = [(node, to) for text, node, _, to in installed if fnmatch.fnmatch(path, text.replace("**/", "*"))]
         if not beside or misspelt or matching:
-            if matching and use:
+            if matching and use and is_named:
                 elsewhere.setdefault(place(source, matching[0][1]), []).append((path, use, matching))
             continue
         left_out.setdefault(place(source, beside[0])[0], []).append((path, use))
@@ -131,6 +137,10 @@ def _data_files(
         if None not in folders and share not in [folder.rstrip("/") for folder in folders if folder is not None]:
             message = f"`{path}` is installed to `{folders[0]}`, but {use} from `{share}`"
             yield BuildDefect(source, start, source.text[start:end], message)
+
+
+def _folder_of(path: str) -> str:
+    return path.rpartition("/")[0]
 
 
 def _groups(source: Source, reader: LaunchReader, points: ast.expr | None) -> Iterator[BuildDefect]:

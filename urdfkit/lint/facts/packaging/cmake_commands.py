@@ -1,0 +1,131 @@
+"""Commands of a CMakeLists.txt, with loops over constant words written out."""
+
+import re
+
+from urdfkit.description.xml.source import Source
+from urdfkit.record import record
+
+
+@record(eq=False)
+class CMakeCommand:
+    """A command of a CMakeLists.txt.
+
+    Attributes:
+        name: its name in lower case.
+        start: offset of the name.
+        words: the arguments with their offsets, without quotes; ``${PROJECT_NAME}`` is not replaced.
+    """
+
+    name: str
+    start: int
+    words: tuple[tuple[str, int], ...]
+
+    @property
+    def folders(self) -> tuple[tuple[str, int], ...]:
+        """Return the folders of ``install(DIRECTORY …)`` with their offsets; the command itself without any."""
+        end = next((at for at, (word, _) in enumerate(self.words) if word in OPTIONS), len(self.words))
+        return self.words[1:end] or ((self.name, self.start),)
+
+
+def commands(source: Source) -> list[CMakeCommand]:
+    """Return the commands of a CMakeLists.txt; nested parentheses end a command's arguments.
+
+    Loops over constant words are written out, and variables that are set once to constant words are replaced.
+    """
+    text = re.sub(r"#[^\n]*", lambda at: " " * len(at[0]), source.text)
+    found = []
+    for at in re.finditer(r"([A-Za-z_]\w*)\s*\(([^()]*)\)", text):
+        words = tuple(
+            (word[1] if word[1] is not None else word[0], at.start(2) + word.start() + (word[1] is not None))
+            for word in re.finditer(r"\"([^\"]*)\"|[^\s\"]+", at[2])
+        )
+        found.append(CMakeCommand(at[1].lower(), at.start(1), words))
+    return _written_out(found, _lists(found)) if "${" in text else found
+
+
+_Words = tuple[tuple[str, int], ...]
+_MOST_WORDS = 50
+"""Maximum number of words of a variable or a loop that is written out."""
+
+
+def _lists(found: list[CMakeCommand]) -> dict[str, _Words]:
+    """Return name → words of the variables that one ``set()`` sets to constant words."""
+    changed = [each.words[0][0] for each in found if each.name in ("set", "option", "foreach") and each.words]
+    changed += [each.words[1][0] for each in found if each.name in ("list", "file") and each.words[1:]]
+    values = {each.words[0][0]: each.words[1:] for each in found if each.name == "set" and each.words}
+    return {
+        name: words
+        for name, words in values.items()
+        if changed.count(name) == 1
+        and 0 < len(words) <= _MOST_WORDS
+        and not any("$" in word or word in ("CACHE", "PARENT_SCOPE") for word, _ in words)
+    }
+
+
+def _written_out(found: list[CMakeCommand], lists: dict[str, _Words]) -> list[CMakeCommand]:
+    """Return the commands with loops and variables replaced; loops that cannot be read are left as they are."""
+    result: list[CMakeCommand] = []
+    at = 0
+    while at < len(found):
+        command = found[at]
+        end = next((i for i in range(at, len(found)) if found[i].name == "endforeach"), len(found))
+        items = _items(command, lists) if command.name == "foreach" else None
+        body = found[at + 1 : end]
+        if items is None or end == len(found) or any(each.name == "foreach" for each in body):
+            result.append(_replaced(command, lists))
+            at += 1
+            continue
+        for item in items:
+            result += (_replaced(each, {**lists, command.words[0][0]: (item,)}) for each in body)
+        at = end + 1
+    return result
+
+
+def _items(loop: CMakeCommand, lists: dict[str, _Words]) -> _Words | None:
+    """Return the words that a ``foreach()`` repeats its commands for; None if they are computed."""
+    words = loop.words[1:]
+    if [word for word, _ in words[:2]] in (["IN", "LISTS"], ["IN", "ITEMS"]):
+        is_list = words[1][0] == "LISTS"
+        words = tuple((f"${{{word}}}" if is_list else word, start) for word, start in words[2:])
+    words = _replaced(CMakeCommand("", 0, words), lists).words
+    is_computed = any("$" in word or word in ("IN", "RANGE") for word, _ in words)
+    return None if is_computed or not 0 < len(words) <= _MOST_WORDS else words
+
+
+def _replaced(command: CMakeCommand, lists: dict[str, _Words]) -> CMakeCommand:
+    """Return a command with the words of its variables; the name of a variable in ``set()`` stays."""
+    if not any("${" in word for word, _ in command.words):
+        return command
+    single = {name: each[0][0] for name, each in lists.items() if len(each) == 1}
+
+    def value(use: re.Match[str]) -> str:
+        return single.get(use[1], use[0])
+
+    words: list[tuple[str, int]] = []
+    for word, start in command.words:
+        use = re.fullmatch(r"\$\{(\w+)\}", word)
+        replaced = lists.get(use[1], ()) if use is not None else ()
+        words += replaced or ((re.sub(r"\$\{(\w+)\}", value, word), start),)
+    return CMakeCommand(command.name, command.start, tuple(words))
+
+
+def misspelt_word(command: CMakeCommand) -> tuple[str, int, str] | None:
+    """Return the first keyword of ``install()`` that is misspelt: word, offset, suggested word; None without one."""
+    from urdfkit.lint.fix_builders import nearest
+
+    for at, (word, start) in enumerate(command.words if command.name == "install" else ()):
+        accepted = _MODES if at == 0 else OPTIONS
+        if word.isupper() and word not in accepted and word not in _OTHERS:
+            near = nearest(word, accepted, cutoff=0.75)
+            if near is not None:
+                return word, start, near
+    return None
+
+
+_MODES = ("CODE", "DIRECTORY", "EXPORT", "FILES", "IMPORTED_RUNTIME_ARTIFACTS", "PROGRAMS", "SCRIPT", "TARGETS")
+_OTHERS = ("COMPONENTS", "CONFIGURATIONS", "OPTION", "PERMISSIONS", "DIRECTORY_PERMISSIONS", "FILE_PERMISSIONS")
+"""First words of ``install()``, and words that resemble an option."""
+
+OPTIONS = frozenset(
+    ("DESTINATION", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "REGEX", "OPTIONAL", "COMPONENT")
+)
