@@ -50,14 +50,14 @@ def found(write):
 @pytest.mark.parametrize(
     ("edit", "before", "after"),
     [
-        (lambda m, e: fix_builders.new_value(m, e("origin"), "xyz", "4", "safe", ""), "'1 2 3'", "'4'"),
+        (lambda m, e: fix_builders.new_value(m, e("origin"), "xyz", "4", "safe"), "'1 2 3'", "'4'"),
         (
-            lambda m, e: fix_builders.new_name(m, e("origin"), "rpy", "rot", "safe", ""),
+            lambda m, e: fix_builders.new_name(m, e("origin"), "rpy", "rot", "safe"),
             'rpy="0 0 ${w}"',
             'rot="0 0 ${w}"',
         ),
-        (lambda m, e: fix_builders.new_tag(m, e("box"), "ball", "safe", ""), "<box size", "<ball size"),
-        (lambda m, e: fix_builders.new_text(m, e("rate"), "7", "safe", ""), "<rate> 5 <", "<rate>7<"),
+        (lambda m, e: fix_builders.new_tag(m, e("box"), "ball", "safe"), "<box size", "<ball size"),
+        (lambda m, e: fix_builders.new_text(m, e("rate"), "7", "safe"), "<rate> 5 <", "<rate>7<"),
         (
             lambda m, e: fix_builders.without_attribute(m, e("origin"), "rpy", "safe", ""),
             "'1 2 3'\n              rpy=\"0 0 ${w}\" />",
@@ -91,10 +91,10 @@ def test_an_edit_changes_its_span_and_nothing_else(found, edit, before, after):
 
 def test_what_is_computed_or_escaped_is_left_alone(found):
     model, element = found
-    assert fix_builders.new_value(model, element("origin"), "rpy", "0 0 0", "safe", "") is None
+    assert fix_builders.new_value(model, element("origin"), "rpy", "0 0 0", "safe") is None
     assert fix_builders.new_values(model, element("origin"), {"xyz": "1 1 1", "rpy": "0 0 0"}, "safe", "") is None
-    assert fix_builders.new_text(model, element("out"), "c", "safe", "") is None
-    assert fix_builders.new_value(model, element("origin"), "xyz", "1 2 3", "safe", "") is None
+    assert fix_builders.new_text(model, element("out"), "c", "safe") is None
+    assert fix_builders.new_value(model, element("origin"), "xyz", "1 2 3", "safe") is None
     assert fix_builders.more_children(model, element("box"), "<b/>", "safe", "") is None
 
 

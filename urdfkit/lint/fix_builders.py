@@ -1,7 +1,7 @@
 """Edits shared by the rules: replace a value or name, add or remove an attribute or element.
 
 Each function returns None if the source text differs from the expanded text, because an expression cannot be edited by
-its value.
+its value. Functions that write a new value or name return None without one, and name it in the title by default.
 """
 
 import re
@@ -19,13 +19,15 @@ _SIMILAR_WORDS, _SIMILAR_NAMES = 0.6, 0.75
 """Least similarities (`difflib.SequenceMatcher.ratio`) of the one word that differs, and of names with another word."""
 
 
-def new_value(model: Model, element: Element, attribute: str, value: str, safety: Safety, title: str) -> Fix | None:
+def new_value(
+    model: Model, element: Element, attribute: str, value: str | None, safety: Safety, title: str = ""
+) -> Fix | None:
     """Return the fix that replaces the value of an attribute."""
-    written = model.literal(element, attribute)
-    if written is None or written.value == value:
+    written = model.literal(element, attribute) if value else None
+    if written is None or not value or written.value == value:
         return None
     span = model.document(element.origin.position.file).source.span(written.value_start, written.value_end)
-    return Fix(safety, title, (Edit(span, value),))
+    return Fix(safety, title or f"Replace with `{value}`", (Edit(span, value),))
 
 
 def new_values(model: Model, element: Element, values: dict[str, str], safety: Safety, title: str) -> Fix | None:
@@ -41,22 +43,24 @@ def new_values(model: Model, element: Element, values: dict[str, str], safety: S
     return Fix(safety, title, tuple(edits)) if edits else None
 
 
-def new_name(model: Model, element: Element, attribute: str, name: str, safety: Safety, title: str) -> Fix | None:
+def new_name(model: Model, element: Element, attribute: str, name: str, safety: Safety) -> Fix | None:
     """Return the fix that renames an attribute."""
     tag = model.tag(element.origin.position)
     written = tag.attributes.get(attribute) if tag is not None else None
     if written is None or attribute not in element.attributes:
         return None
     source = model.document(element.origin.position.file).source
-    return Fix(safety, title, (Edit(source.span(written.start, written.start + len(attribute)), name),))
+    edit = Edit(source.span(written.start, written.start + len(attribute)), name)
+    return Fix(safety, f"Rename to `{name}`", (edit,))
 
 
-def new_tag(model: Model, element: Element, name: str, safety: Safety, title: str) -> Fix | None:
+def new_tag(model: Model, element: Element, name: str | None, safety: Safety) -> Fix | None:
     """Return the fix that renames an element."""
-    tag = model.tag(element.origin.position)
-    if tag is None or tag.name != element.tag:
+    tag = model.tag(element.origin.position) if name else None
+    if tag is None or not name or tag.name != element.tag:
         return None
-    return Fix(safety, title, renamed(model.document(element.origin.position.file), tag, name))
+    edits = renamed(model.document(element.origin.position.file), tag, name)
+    return Fix(safety, f"Rename to <{name}>", edits)
 
 
 def renamed(document: Document, tag: Tag, name: str) -> tuple[Edit, ...]:
@@ -65,16 +69,16 @@ def renamed(document: Document, tag: Tag, name: str) -> tuple[Edit, ...]:
     return tuple(Edit(document.source.span(start, start + len(tag.name)), name) for start in starts)
 
 
-def new_text(model: Model, element: Element, text: str, safety: Safety, title: str) -> Fix | None:
+def new_text(model: Model, element: Element, text: str | None, safety: Safety, title: str = "") -> Fix | None:
     """Return the fix that replaces the text of an element."""
-    tag = model.tag(element.origin.position)
-    if tag is None or tag.close is None or tag.children:
+    tag = model.tag(element.origin.position) if text else None
+    if tag is None or not text or tag.close is None or tag.children:
         return None
     source = model.document(element.origin.position.file).source
     written = source.text[tag.end : tag.close]
     if written.strip() != element.text or "&" in written or written == text:
         return None
-    return Fix(safety, title, (Edit(source.span(tag.end, tag.close), text),))
+    return Fix(safety, title or f"Replace with `{text}`", (Edit(source.span(tag.end, tag.close), text),))
 
 
 def without_attribute(model: Model, element: Element, attribute: str, safety: Safety, title: str) -> Fix | None:

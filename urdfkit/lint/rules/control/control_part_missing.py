@@ -69,12 +69,8 @@ class ControlPartMissing(RobotRule):
     def _zero_reductions(self, model: Model, element: Element) -> Findings:
         for part in element.walk():
             if part.tag in _REDUCTIONS and number(part.text) == 0.0:
-                yield self.at(
-                    model,
-                    part,
-                    f"<{part.tag}> is zero, so the transmission is rejected",
-                    help="write 1 if the joint has no gear",
-                )
+                message = f"<{part.tag}> is zero, so the transmission is rejected"
+                yield self.at(model, part, message, help="write 1 if the joint has no gear")
 
     def _missing_child(self, model: Model, element: Element, *tags: str) -> Findings:
         where = "ros2_control/hardware" if element.tag == "hardware" else element.tag

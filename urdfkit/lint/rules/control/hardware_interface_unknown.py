@@ -66,12 +66,8 @@ class HardwareInterfaceUnknown(RobotRule):
                 continue
             qualified = f"{PACKAGE}/{match}"
             misspelt.add(element)
-            yield self.at(
-                model,
-                element,
-                f"unknown hardware interface `{text}`" + Suggestion(qualified, text),
-                fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
-            )
+            message = f"unknown hardware interface `{text}`" + Suggestion(qualified, text)
+            yield self.at(model, element, message, fix=new_text(model, element, qualified, "safe"))
         is_simulated = has_default_hardware(model.robot) or (
             model.target == "urdfkit" and has_gazebo_ros_control(model.robot)
         )

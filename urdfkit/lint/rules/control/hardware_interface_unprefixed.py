@@ -48,9 +48,5 @@ class HardwareInterfaceUnprefixed(RobotRule):
             of_joints = [each for part in transmission.joints for each in part.element.find_all("hardwareInterface")]
             if text in INTERFACES and (element in of_joints or not of_joints):
                 qualified = f"{PACKAGE}/{text}"
-                yield self.at(
-                    model,
-                    element,
-                    f"hardware interface `{text}` has no package prefix; write `{qualified}`",
-                    fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
-                )
+                message = f"hardware interface `{text}` has no package prefix; write `{qualified}`"
+                yield self.at(model, element, message, fix=new_text(model, element, qualified, "safe"))

@@ -45,11 +45,7 @@ class OldTransmissionSyntax(RobotRule):
         """Yield a finding for each transmission in the obsolete syntax."""
         for transmission in model.robot.transmissions:
             if is_old(transmission):
-                yield self.at(
-                    model,
-                    transmission.element,
-                    f"transmission `{transmission.name or ''}` uses an obsolete syntax: "
-                    "ros_control reads <type>, not type=",
-                    attribute="type",
-                    help="replace the attribute with <type>transmission_interface/SimpleTransmission</type>",
-                )
+                message = f"transmission `{transmission.name or ''}` uses an obsolete syntax: "
+                message += "ros_control reads <type>, not type="
+                help = "replace the attribute with <type>transmission_interface/SimpleTransmission</type>"
+                yield self.at(model, transmission.element, message, attribute="type", help=help)

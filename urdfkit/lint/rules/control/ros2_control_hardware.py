@@ -108,13 +108,8 @@ class HardwareMismatch(RobotRule):
                         )
                     continue
                 expected, message = suggestion, f"unknown hardware `{text}`"
-            yield self.at(
-                model,
-                element,
-                message,
-                help=f"write `{expected}`",
-                fix=new_text(model, element, expected, "unsafe", f"Replace with `{expected}`"),
-            )
+            help = f"write `{expected}`"
+            yield self.at(model, element, message, help=help, fix=new_text(model, element, expected, "unsafe"))
 
     def _unexpanded(self, model: Model) -> Findings:
         """Yield a finding for each misspelt hardware in the files of the robot that its conditions leave out."""
@@ -132,10 +127,6 @@ class HardwareMismatch(RobotRule):
                 expected = nearest(text, usual, cutoff=0.9)
                 if expected is not None:
                     edit = Edit(source.span(tag.end, tag.close), expected)
-                    yield self.at(
-                        model,
-                        source.position(tag.start),
-                        f"unknown hardware `{text}`",
-                        help=f"write `{expected}`",
-                        fix=Fix("unsafe", f"Replace with `{expected}`", (edit,)),
-                    )
+                    message = f"unknown hardware `{text}`"
+                    fix = Fix("unsafe", f"Replace with `{expected}`", (edit,))
+                    yield self.at(model, source.position(tag.start), message, help=f"write `{expected}`", fix=fix)

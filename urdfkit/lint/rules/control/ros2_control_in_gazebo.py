@@ -42,13 +42,9 @@ class Ros2ControlInGazebo(RobotRule):
         """Yield a finding for each misplaced block."""
         for block in model.robot.gazebo:
             for child in block.element.find_all("ros2_control"):
-                yield self.at(
-                    model,
-                    child,
-                    "<ros2_control> inside <gazebo> is not read",
-                    help="move it into <robot>",
-                    fix=_without_parent(model, block.element) if len(block.element.children) == 1 else None,
-                )
+                message = "<ros2_control> inside <gazebo> is not read"
+                fix = _without_parent(model, block.element) if len(block.element.children) == 1 else None
+                yield self.at(model, child, message, help="move it into <robot>", fix=fix)
 
 
 def _without_parent(model: Model, gazebo: Element) -> Fix | None:

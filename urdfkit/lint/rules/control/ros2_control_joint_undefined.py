@@ -74,13 +74,7 @@ class Ros2ControlJointUndefined(RobotRule):
                         yield self.at(model, element, message, attribute="name", joint=name, severity="note")
                     continue
                 near, hint = meant(name, joints)
-                finding = self.at(
-                    model,
-                    element,
-                    f"<ros2_control> `{block.name}` names the undefined joint `{name}`" + hint,
-                    attribute="name",
-                    joint=name,
-                    fix=new_value(model, element, "name", near, "unsafe", f"Replace with `{near}`") if near else None,
-                    kind="undefined",
-                )
+                message = f"<ros2_control> `{block.name}` names the undefined joint `{name}`" + hint
+                fix = new_value(model, element, "name", near, "unsafe")
+                finding = self.at(model, element, message, attribute="name", joint=name, fix=fix, kind="undefined")
                 yield from unless_masked(model, name, near, finding)

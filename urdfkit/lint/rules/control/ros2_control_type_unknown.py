@@ -43,21 +43,14 @@ class Ros2ControlTypeUnknown(RobotRule):
         for block in model.robot.ros2_control:
             value = block.element.get("type")
             if value is None:
-                yield self.at(
-                    model,
-                    block.element,
-                    "<ros2_control> has no `type`",
-                    help=f"add the attribute type with one of {', '.join(_TYPES)}",
-                )
+                message = "<ros2_control> has no `type`"
+                help = f"add the attribute type with one of {', '.join(_TYPES)}"
+                yield self.at(model, block.element, message, help=help)
                 continue
             if value in _TYPES or "$" in value:
                 continue
             near, hint = meant(value, _TYPES)
             hint = hint or f"; use one of {', '.join(_TYPES)}"
-            yield self.at(
-                model,
-                block.element,
-                f"unknown <ros2_control> type `{value}`" + hint,
-                attribute="type",
-                fix=new_value(model, block.element, "type", near, "safe", f"Replace with `{near}`") if near else None,
-            )
+            message = f"unknown <ros2_control> type `{value}`" + hint
+            fix = new_value(model, block.element, "type", near, "safe")
+            yield self.at(model, block.element, message, attribute="type", fix=fix)

@@ -49,10 +49,5 @@ class TransmissionInRos2(RobotRule):
             first = robot.transmissions[0]
             count = len(robot.transmissions)
             others = f" and {count - 1} more" if count > 1 else ""
-            yield self.at(
-                model,
-                first.element,
-                f"ROS 2 does not read transmissions (`{first.name}`{others})",
-                attribute="name",
-                help="declare the joints in <ros2_control>",
-            )
+            message = f"ROS 2 does not read transmissions (`{first.name}`{others})"
+            yield self.at(model, first.element, message, attribute="name", help="declare the joints in <ros2_control>")

@@ -76,8 +76,6 @@ class TransmissionJointUndefined(RobotRule):
                     joint=part.name,
                     names=(near,) if near else (),
                     kind="undefined",
-                    fix=new_value(model, part.element, "name", near, "unsafe", f"Replace with `{near}`")
-                    if near
-                    else None,
+                    fix=new_value(model, part.element, "name", near, "unsafe"),
                 )
                 yield from unless_masked(model, part.name, near, finding)

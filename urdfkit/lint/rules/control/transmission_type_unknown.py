@@ -63,12 +63,8 @@ class TransmissionTypeUnknown(RobotRule):
                 continue
             if abs(len(name) - len(suggestion)) > _MAX_LENGTH_DIFFERENCE:
                 continue  # A type of another package, such as `HalfDifferentialTransmission` of PAL Robotics.
-            yield self.at(
-                model,
-                element,
-                f"unknown transmission type `{element.text}`" + Suggestion(qualified, element.text),
-                fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
-            )
+            message = f"unknown transmission type `{element.text}`" + Suggestion(qualified, element.text)
+            yield self.at(model, element, message, fix=new_text(model, element, qualified, "safe"))
 
 
 def _type_elements(model: Model) -> Iterator[Element]:

@@ -76,14 +76,9 @@ class TwoDrivers(RobotRule):
                 if text in driven and driven[text][1] in simulators
             ]
             if both:
-                yield self.at(
-                    model,
-                    plugin.element,
-                    f"`{', '.join(dict.fromkeys(both))}` is also driven by {driven[both[0]][0]}",
-                    attribute="name",
-                    joint=both[0],
-                    help="remove one of the two drivers",
-                )
+                message = f"`{', '.join(dict.fromkeys(both))}` is also driven by {driven[both[0]][0]}"
+                help = "remove one of the two drivers"
+                yield self.at(model, plugin.element, message, attribute="name", joint=both[0], help=help)
 
 
 def _driven_by(spec: PluginSpec | None) -> tuple[Parameter, ...]:

@@ -85,13 +85,11 @@ class DuplicateSingletonElement(RobotRule):
         self, model: Model, parent: str, child: Element, first: Element, severity: Severity | None
     ) -> Finding:
         where = model.shown(first.origin.position)
-        return self.at(
-            model,
-            child,
-            f"extra <{child.tag}> in <{parent}>: some readers use the first, others the last",
-            help=f"remove one of them; the first is at {where}"
+        message = f"extra <{child.tag}> in <{parent}>: some readers use the first, others the last"
+        help = (
+            f"remove one of them; the first is at {where}"
             if first.tag == child.tag
-            else f"remove it or the <{first.tag}> at {where}",
-            fix=without_element(model, child, "unsafe", f"Remove the extra <{child.tag}>"),
-            severity=severity,
+            else f"remove it or the <{first.tag}> at {where}"
         )
+        fix = without_element(model, child, "unsafe", f"Remove the extra <{child.tag}>")
+        return self.at(model, child, message, help=help, fix=fix, severity=severity)

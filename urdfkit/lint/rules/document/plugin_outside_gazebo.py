@@ -39,13 +39,9 @@ class PluginOutsideGazebo(RobotRule):
         for element in model.robot.element.children:
             is_sensor = element.tag == "sensor" and element.find("parent") is None and element.get("type") is not None
             if element.tag == "plugin" or is_sensor:
-                yield self.at(
-                    model,
-                    element,
-                    f"<{element.tag}> in <robot> is not read",
-                    help='move it into <gazebo reference="LINK">' if is_sensor else "move it into <gazebo>",
-                    fix=None if is_sensor else _wrapped(model, element),
-                )
+                message = f"<{element.tag}> in <robot> is not read"
+                help = 'move it into <gazebo reference="LINK">' if is_sensor else "move it into <gazebo>"
+                yield self.at(model, element, message, help=help, fix=None if is_sensor else _wrapped(model, element))
 
 
 def _wrapped(model: Model, element: Element) -> Fix | None:

@@ -47,11 +47,7 @@ class RpyAndQuatXyzw(RobotRule):
                 continue
             differ = origin in different
             unclear = origin in defective or any(model.is_unresolved(origin, name) for name in ("rpy", "quat_xyzw"))
-            yield self.at(
-                model,
-                origin,
-                f"<origin> has both `rpy` and `quat_xyzw`{', and the rotations differ' if differ else ''}",
-                attribute="quat_xyzw",
-                help="remove the wrong one" if differ else "remove `rpy`",
-                fix=None if unclear else without_attribute(model, origin, "rpy", "safe", "Remove `rpy`"),
-            )
+            message = f"<origin> has both `rpy` and `quat_xyzw`{', and the rotations differ' if differ else ''}"
+            help = "remove the wrong one" if differ else "remove `rpy`"
+            fix = None if unclear else without_attribute(model, origin, "rpy", "safe", "Remove `rpy`")
+            yield self.at(model, origin, message, attribute="quat_xyzw", help=help, fix=fix)

@@ -47,14 +47,12 @@ class RpyInDegrees(RobotRule):
                 continue
             first = next(filter(_is_degrees, angles))
             value = " ".join(f"{radians(angle):.7g}" for angle in angles)
-            yield self.at(
-                model,
-                origin,
-                f'rpy="{text}" appears to be in degrees: {first:g} rad turns the part by {degrees(first) % 360:.0f}°',
-                attribute="rpy",
-                help=f"write angles in radians: {first:g} degrees are {radians(first):.6g} rad",
-                fix=new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians"),
+            message = (
+                f'rpy="{text}" appears to be in degrees: {first:g} rad turns the part by {degrees(first) % 360:.0f}°'
             )
+            help = f"write angles in radians: {first:g} degrees are {radians(first):.6g} rad"
+            fix = new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians")
+            yield self.at(model, origin, message, attribute="rpy", help=help, fix=fix)
 
 
 def _is_degrees(angle: float) -> bool:

@@ -59,12 +59,12 @@ class StrayQuote(RobotRule):
             for attribute, value in element.attributes.items():
                 clean = _cleaned(value)
                 if clean is not None and not model.is_unresolved(element, attribute):
-                    fix = new_value(model, element, attribute, clean, "safe", f"Replace with `{clean}`")
+                    fix = new_value(model, element, attribute, clean, "safe")
                     yield self.at(model, element, _message(value, clean), attribute=attribute, fix=fix)
             text = _written(model, element) if element.text and not element.children else ""
             clean = _cleaned(text) if text else None
             if clean is not None and not model.is_unresolved(element):
-                fix = new_text(model, element, clean, "safe", f"Replace with `{clean}`")
+                fix = new_text(model, element, clean, "safe")
                 yield self.at(model, element, f"<{element.tag}>: {_message(text, clean)}", fix=fix)
 
 

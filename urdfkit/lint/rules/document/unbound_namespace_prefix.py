@@ -45,13 +45,11 @@ class UnboundNamespacePrefix(SourceRule):
         """
         text = document.source.text
         if "xmlns=" in text and has_xacro_as_default(document) and not declares_xacro(document):
+            message = "xacro's namespace is the default namespace of this file, so the prefix `xacro:` is unbound"
+            help = "write xmlns:xacro instead of xmlns"
+            fix = Fix("safe", "Replace with `xmlns:xacro`", declaration(document))
             yield self.at(
-                model,
-                document.source.position(document.roots[0].start),
-                "xacro's namespace is the default namespace of this file, so the prefix `xacro:` is unbound",
-                attribute="xmlns",
-                help="write xmlns:xacro instead of xmlns",
-                fix=Fix("safe", "Replace with `xmlns:xacro`", declaration(document)),
+                model, document.source.position(document.roots[0].start), message, attribute="xmlns", help=help, fix=fix
             )
             return
         if not any(f"xmlns:{prefix}" not in text for prefix in _before_colons(text)):

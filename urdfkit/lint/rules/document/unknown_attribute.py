@@ -76,7 +76,7 @@ class UnknownAttribute(RobotRule):
                     if attribute in _ALL:
                         fix = without_attribute(model, element, attribute, "unsafe", f"Remove `{attribute}`")
                 else:
-                    fix = new_name(model, element, attribute, suggestion, "unsafe", f"Rename to `{suggestion}`")
+                    fix = new_name(model, element, attribute, suggestion, "unsafe")
                 yield self.at(
                     model,
                     element,

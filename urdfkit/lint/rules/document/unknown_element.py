@@ -70,12 +70,12 @@ class UnknownElement(RobotRule):
         """Yield a finding for each unknown element."""
         robot = model.robot.element
         if robot.tag != "robot":
-            fix = new_tag(model, robot, "robot", "unsafe", "Rename to <robot>")
+            fix = new_tag(model, robot, "robot", "unsafe")
             message = f"root element <{robot.tag}> is not a robot description"
             yield self.at(model, robot, message, help=Suggestion("robot", before=""), fix=fix, severity="error")
         for child in robot.children:
             if (tag := misspelt_in_robot(child)) is not None:
-                fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
+                fix = new_tag(model, child, tag, "unsafe")
                 help = Suggestion(tag, before="")
                 yield self.at(model, child, _message(robot, child), help=help, fix=fix, severity="error")
         yield from self._check_control(model)
@@ -110,7 +110,7 @@ class UnknownElement(RobotRule):
             from urdfkit.lint.facts.control.hardware_interfaces import misspelt_parts
 
             for parent, child, tag in misspelt_parts(element, element.tag):
-                fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
+                fix = new_tag(model, child, tag, "unsafe")
                 yield self.at(model, child, _message(parent, child), help=Suggestion(tag, before=""), fix=fix)
 
 
@@ -156,4 +156,4 @@ def _renamed(model: Model, parent: Element, child: Element) -> Fix | None:
         return None
     if not child.attributes.keys() <= set(URDF_ATTRIBUTES.get(tag, ())):
         return None  # Probably a macro call.
-    return new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
+    return new_tag(model, child, tag, "unsafe")

@@ -32,10 +32,8 @@ class UrdfVersionUnknown(RobotRule):
         root = model.robot.element
         if written_version(root) in VERSIONS or model.is_unresolved(root, "version"):
             return
-        yield self.at(
-            model,
-            root,
-            f"unknown version `{root.attributes['version']}` of URDF; it is read as version {shown(version_of(root))}",
-            attribute="version",
-            help=f"the versions of URDF are {', '.join(map(shown, VERSIONS))}",
+        message = (
+            f"unknown version `{root.attributes['version']}` of URDF; it is read as version {shown(version_of(root))}"
         )
+        help = f"the versions of URDF are {', '.join(map(shown, VERSIONS))}"
+        yield self.at(model, root, message, attribute="version", help=help)

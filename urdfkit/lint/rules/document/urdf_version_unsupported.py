@@ -47,14 +47,11 @@ class UrdfVersionUnsupported(RobotRule):
         names = {"ros1": "ROS 1", "ros2": "ROS 2", "classic": "Gazebo Classic"}
         reader = f"{names[model.target or '']} {model.release.capitalize()}".strip()
         is_any = model.target == "ros2" and not model.release
-        yield self.at(
-            model,
-            root,
+        message = (
             f"URDF {shown(version)} is read by ROS 2 Lyrical and Rolling only"
             if is_any
-            else f"{reader} reads URDF 1.0 only, and the robot is URDF {shown(version)}",
-            attribute="version",
-            help="write URDF 1.0: `rpy` instead of `quat_xyzw`, other shapes instead of capsules, and no limits of"
-            " acceleration, deceleration and jerk",
-            severity="note" if is_any else None,
+            else f"{reader} reads URDF 1.0 only, and the robot is URDF {shown(version)}"
         )
+        help = "write URDF 1.0: `rpy` instead of `quat_xyzw`, other shapes instead of capsules, and no limits of"
+        help += " acceleration, deceleration and jerk"
+        yield self.at(model, root, message, attribute="version", help=help, severity="note" if is_any else None)

@@ -41,12 +41,9 @@ class ConflictingBlocks(RobotRule):
                 if value and not child.children:
                     first = first_by_name.setdefault((block.reference or "", child.tag), child)
                     if _value(first) != value:
-                        yield self.at(
-                            model,
-                            child,
-                            f"<{child.tag}> of `{block.reference}` is {value} here but {_value(first)} elsewhere",
-                            help=f"remove one of them; the other is at {model.shown(first.origin.position)}",
-                        )
+                        message = f"<{child.tag}> of `{block.reference}` is {value} here but {_value(first)} elsewhere"
+                        help = f"remove one of them; the other is at {model.shown(first.origin.position)}"
+                        yield self.at(model, child, message, help=help)
 
 
 def _value(element: Element) -> str:

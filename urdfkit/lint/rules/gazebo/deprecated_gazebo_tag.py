@@ -41,9 +41,5 @@ class DeprecatedGazeboTag(RobotRule):
         for block in model.robot.gazebo:
             for child in block.element.children:
                 if child.tag == "cfmDamping":
-                    yield self.at(
-                        model,
-                        child,
-                        "<cfmDamping> is deprecated; use <implicitSpringDamper>",
-                        fix=new_tag(model, child, "implicitSpringDamper", "safe", "Rename to <implicitSpringDamper>"),
-                    )
+                    message = "<cfmDamping> is deprecated; use <implicitSpringDamper>"
+                    yield self.at(model, child, message, fix=new_tag(model, child, "implicitSpringDamper", "safe"))

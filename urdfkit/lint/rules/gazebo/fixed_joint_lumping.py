@@ -50,13 +50,9 @@ class FixedJointLumping(RobotRule):
         for plugin, _, _ in plugins(model.robot):
             for child in plugin.element.children:
                 if child.tag in _BODIES and child.text in merged:
-                    yield self.at(
-                        model,
-                        child,
-                        f"<{child.tag}> names `{child.text}`, which Gazebo merges into its parent link",
-                        link=child.text,
-                        help="set <preserveFixedJoint> to true in a <gazebo> block of its joint",
-                    )
+                    message = f"<{child.tag}> names `{child.text}`, which Gazebo merges into its parent link"
+                    help = "set <preserveFixedJoint> to true in a <gazebo> block of its joint"
+                    yield self.at(model, child, message, link=child.text, help=help)
         for block in model.robot.gazebo:
             joint = model.robot.joint_by_name.get(block.reference or "")
             for sensor in block.sensors:
@@ -66,10 +62,6 @@ class FixedJointLumping(RobotRule):
                     and joint.child in merged
                     and joint.type == "fixed"
                 ):
-                    yield self.at(
-                        model,
-                        sensor.element,
-                        f"joint `{joint.name}` is fixed: Gazebo removes it together with its force-torque sensor",
-                        joint=joint.name,
-                        help="set <preserveFixedJoint> to true in this block",
-                    )
+                    message = f"joint `{joint.name}` is fixed: Gazebo removes it together with its force-torque sensor"
+                    help = "set <preserveFixedJoint> to true in this block"
+                    yield self.at(model, sensor.element, message, joint=joint.name, help=help)

@@ -38,10 +38,8 @@ class GazeboMaterial(RobotRule):
         for block in model.robot.gazebo:
             for child in block.element.find_all("material"):
                 if (child.text or child.get("value") or "").startswith("Gazebo/"):
-                    yield self.at(
-                        model,
-                        child,
-                        f"Gazebo Sim has no material script `{child.text or child.get('value')}`: the link is white",
-                        link=block.reference,
-                        help="set <visual><material><diffuse> here, or <color> in the URDF",
+                    message = (
+                        f"Gazebo Sim has no material script `{child.text or child.get('value')}`: the link is white"
                     )
+                    help = "set <visual><material><diffuse> here, or <color> in the URDF"
+                    yield self.at(model, child, message, link=block.reference, help=help)

@@ -43,12 +43,6 @@ class GazeboMaterialUnknown(RobotRule):
 
         for element, name, suggestion in unknown_materials(model.robot):
             if not model.is_unresolved(element):
-                yield self.at(
-                    model,
-                    element,
-                    f"unknown Gazebo material `{name}`",
-                    help=Suggestion(suggestion, before="") if suggestion else None,
-                    fix=new_text(model, element, suggestion, "unsafe", f"Replace with `{suggestion}`")
-                    if suggestion
-                    else None,
-                )
+                message = f"unknown Gazebo material `{name}`"
+                help = Suggestion(suggestion, before="") if suggestion else None
+                yield self.at(model, element, message, help=help, fix=new_text(model, element, suggestion, "unsafe"))

@@ -87,9 +87,7 @@ class GazeboReferenceUndefined(RobotRule):
                 f"`{name}` is neither a link nor a joint" + hint,
                 attribute="reference",
                 help=None if near else "correct the reference, or remove the block",
-                fix=new_value(model, block.element, "reference", near, "unsafe", f"Replace with `{near}`")
-                if near
-                else None,
+                fix=new_value(model, block.element, "reference", near, "unsafe"),
                 severity="warning" if is_leftover else None,
                 kind="reference",
                 names=(name,),

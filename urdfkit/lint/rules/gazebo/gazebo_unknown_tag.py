@@ -113,27 +113,19 @@ class GazeboUnknownTag(RobotRule):
                 if child.tag in _OF_JOINTS and block.reference in model.robot.link_by_name:
                     if block.reference not in model.robot.joint_by_name:
                         message = f"<{child.tag}> has no effect in the block of link `{block.reference}`"
-                        help = "write it in a block of the fixed joint"
+                        help: str | None = "write it in a block of the fixed joint"
                         yield self.at(model, child, message, link=block.reference, help=help)
                     continue
                 if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
                     continue
                 suggestion = _ALIASES.get(child.tag) or nearest(child.tag, KEYS, cutoff=0.7)
                 if suggestion is not None:
-                    yield self.at(
-                        model,
-                        child,
-                        f"unknown element <{child.tag}> in <gazebo>",
-                        help=Suggestion(f"<{suggestion}>", before=""),
-                        fix=new_tag(model, child, suggestion, "unsafe", f"Rename to <{suggestion}>"),
-                    )
+                    message = f"unknown element <{child.tag}> in <gazebo>"
+                    help = Suggestion(f"<{suggestion}>", before="")
+                    yield self.at(model, child, message, help=help, fix=new_tag(model, child, suggestion, "unsafe"))
             for sensor in block.sensors:
                 for unknown in unknown_elements(sensor.element):
                     near, element = unknown.meant, unknown.element
-                    yield self.at(
-                        model,
-                        element,
-                        f"unknown element <{element.tag}> in <{unknown.inside}> of a sensor",
-                        help=Suggestion(f"<{near}>", before="") if near else None,
-                        fix=new_tag(model, element, near, "unsafe", f"Rename to <{near}>") if near else None,
-                    )
+                    message = f"unknown element <{element.tag}> in <{unknown.inside}> of a sensor"
+                    help = Suggestion(f"<{near}>", before="") if near else None
+                    yield self.at(model, element, message, help=help, fix=new_tag(model, element, near, "unsafe"))

@@ -58,10 +58,7 @@ class OdometryPublishedTwice(RobotRule):
             same = next((file for file, name in found if name == (odom or "").strip("/")), None)
             for text, element in values(plugin, publishes) if publishes is not None and same is not None else ():
                 if text.lower() in ("true", "1") and same is not None:
-                    yield self.at(
-                        model,
-                        element,
-                        f"<{element.tag}> is true, but the filter in {same.rpartition('/')[2]} publishes "
-                        "the same transform",
-                        help="write false, or set `publish_tf` of the filter to false",
-                    )
+                    message = f"<{element.tag}> is true, but the filter in {same.rpartition('/')[2]} publishes "
+                    message += "the same transform"
+                    help = "write false, or set `publish_tf` of the filter to false"
+                    yield self.at(model, element, message, help=help)

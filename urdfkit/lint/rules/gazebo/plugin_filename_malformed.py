@@ -61,14 +61,9 @@ class PluginFilenameMalformed(RobotRule):
                 defect = "lacks the prefix `lib`" if not name.startswith("lib") else "lacks the suffix `.so`"
             if corrected == name:
                 continue
-            yield self.at(
-                model,
-                plugin.element,
-                f"plugin file name `{' '.join(name.split())}` {defect}",
-                attribute="filename",
-                help=f"write {corrected}",
-                fix=_rewritten(model, plugin, corrected),
-            )
+            message = f"plugin file name `{' '.join(name.split())}` {defect}"
+            fix = _rewritten(model, plugin, corrected)
+            yield self.at(model, plugin.element, message, attribute="filename", help=f"write {corrected}", fix=fix)
 
 
 def _rewritten(model: Model, plugin: Plugin, corrected: str) -> Fix | None:

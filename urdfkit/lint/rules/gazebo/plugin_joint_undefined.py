@@ -114,7 +114,7 @@ class PluginJointUndefined(RobotRule):
                 is_single = not parameter.separator or parameter.separator not in element.text
                 near = nearest(text.strip("\"'"), joints, cutoff=0.7)
                 help = Suggestion(near, before="") or f"joints of the robot: {', '.join(joints) or 'none'}"
-                fix = new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near and is_single else None
+                fix = new_text(model, element, near, "unsafe") if near and is_single else None
             finding = self.at(model, element, message, joint=text, help=help, fix=fix, kind="undefined")
             yield from (
                 unless_masked(model, text, near, finding) if text not in model.robot.joint_by_name else (finding,)

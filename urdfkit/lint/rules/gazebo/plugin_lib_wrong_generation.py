@@ -53,10 +53,6 @@ class PluginLibWrongGeneration(RobotRule):
                 if spec.kind in kinds and spec.generation in allowed(model)
                 for file in spec.filenames
             }
-            yield self.at(
-                model,
-                plugin.element,
-                f"library `{(plugin.filename or '').strip()}` does not exist for {model.release or model.target}",
-                attribute="filename",
-                help=f"use {min(replacements)}" if replacements else None,
-            )
+            message = f"library `{(plugin.filename or '').strip()}` does not exist for {model.release or model.target}"
+            help = f"use {min(replacements)}" if replacements else None
+            yield self.at(model, plugin.element, message, attribute="filename", help=help)

@@ -46,11 +46,6 @@ class PluginLinkUndefined(RobotRule):
             if is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
-            finding = self.at(
-                model,
-                element,
-                f"<{parameter.tag}> names the undefined link `{text}`" + hint,
-                link=text,
-                fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
-            )
+            message = f"<{parameter.tag}> names the undefined link `{text}`" + hint
+            finding = self.at(model, element, message, link=text, fix=new_text(model, element, near, "unsafe"))
             yield from unless_masked(model, text, near, finding)

@@ -51,10 +51,6 @@ class PluginNameCase(RobotRule):
                 start = name.lower().index("::systems::")
                 expected = f"{name[:start]}::systems::{name[start + 11 :]}"
             if expected is not None and expected != name:
-                yield self.at(
-                    model,
-                    plugin.element,
-                    f"unknown class `{name}`" + Suggestion(expected, name),
-                    attribute="name",
-                    fix=new_value(model, plugin.element, "name", expected, "safe", f"Replace with `{expected}`"),
-                )
+                message = f"unknown class `{name}`" + Suggestion(expected, name)
+                fix = new_value(model, plugin.element, "name", expected, "safe")
+                yield self.at(model, plugin.element, message, attribute="name", fix=fix)

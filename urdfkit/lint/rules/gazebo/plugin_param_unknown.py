@@ -51,13 +51,7 @@ class PluginParamUnknown(RobotRule):
                     yield self.at(model, parameter.element, parameter.message, severity="note", kind="promised")
                     continue
                 suggestion = parameter.meant
-                yield self.at(
-                    model,
-                    parameter.element,
-                    parameter.message,
-                    help=Suggestion(f"<{suggestion}>", before="") if suggestion else None,
-                    fix=new_tag(model, parameter.element, suggestion, "unsafe", f"Rename to <{suggestion}>")
-                    if suggestion
-                    else None,
-                    kind=f"{spec.kind} {spec.generation}" if spec is not None else "",
-                )
+                help = Suggestion(f"<{suggestion}>", before="") if suggestion else None
+                fix = new_tag(model, parameter.element, suggestion, "unsafe")
+                kind = f"{spec.kind} {spec.generation}" if spec is not None else ""
+                yield self.at(model, parameter.element, parameter.message, help=help, fix=fix, kind=kind)

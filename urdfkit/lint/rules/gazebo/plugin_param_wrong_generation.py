@@ -64,8 +64,6 @@ class PluginParamWrongGeneration(RobotRule):
                     child,
                     f"<{child.tag}> is not read in {_NAMES[spec.generation]}",
                     help=f"use <{equivalent.tag}>" if equivalent is not None else help,
-                    fix=None
-                    if equivalent is None or is_set
-                    else new_tag(model, child, equivalent.tag, "unsafe", f"Rename to <{equivalent.tag}>"),
+                    fix=None if equivalent is None or is_set else new_tag(model, child, equivalent.tag, "unsafe"),
                     kind=spec.generation,
                 )

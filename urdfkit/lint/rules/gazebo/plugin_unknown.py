@@ -81,7 +81,7 @@ class PluginUnknown(RobotRule):
                 yield self._finding(model, plugin, "name", f"unknown class `{name}`", expected)
 
     def _finding(self, model: Model, plugin: Plugin, attribute: str, message: str, expected: str) -> Finding:
-        fix = new_value(model, plugin.element, attribute, expected, "unsafe", f"Replace with `{expected}`")
+        fix = new_value(model, plugin.element, attribute, expected, "unsafe")
         return self.at(model, plugin.element, message + Suggestion(expected), attribute=attribute, fix=fix)
 
 

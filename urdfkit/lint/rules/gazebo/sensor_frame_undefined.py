@@ -51,12 +51,8 @@ class SensorFrameUndefined(RobotRule):
             if is_frame(text.strip().lstrip("/"), model.robot) or is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
-            finding = self.at(
-                model,
-                element,
-                f"<{tag}> names the undefined frame `{text}`" + hint,
-                fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
-            )
+            message = f"<{tag}> names the undefined frame `{text}`" + hint
+            finding = self.at(model, element, message, fix=new_text(model, element, near, "unsafe"))
             yield from unless_masked(model, text, near, finding)
 
     def _frames(self, model: Model) -> Iterator[tuple[str, Element, str]]:

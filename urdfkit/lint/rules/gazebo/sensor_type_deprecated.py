@@ -51,11 +51,6 @@ class SensorTypeDeprecated(RobotRule):
             for sensor in block.sensors:
                 new = _REPLACEMENTS.get((sensor.type or "").strip())
                 if new is not None:
-                    yield self.at(
-                        model,
-                        sensor.element,
-                        f"Gazebo Sim does not support sensors of type `{sensor.type}`",
-                        attribute="type",
-                        help=f'write type="{new}"',
-                        fix=new_value(model, sensor.element, "type", new, "safe", f"Replace with `{new}`"),
-                    )
+                    message = f"Gazebo Sim does not support sensors of type `{sensor.type}`"
+                    fix = new_value(model, sensor.element, "type", new, "safe")
+                    yield self.at(model, sensor.element, message, attribute="type", help=f'write type="{new}"', fix=fix)

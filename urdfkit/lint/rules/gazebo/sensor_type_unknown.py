@@ -79,10 +79,6 @@ class SensorTypeUnknown(RobotRule):
                 if expected is None:
                     continue
                 defect = "Gazebo Classic has no sensor type" if kind in SENSOR_TYPES else "unknown sensor type"
-                yield self.at(
-                    model,
-                    sensor.element,
-                    f"{defect} `{kind}`" + Suggestion(expected, kind),
-                    attribute="type",
-                    fix=new_value(model, sensor.element, "type", expected, "unsafe", f"Replace with `{expected}`"),
-                )
+                message = f"{defect} `{kind}`" + Suggestion(expected, kind)
+                fix = new_value(model, sensor.element, "type", expected, "unsafe")
+                yield self.at(model, sensor.element, message, attribute="type", fix=fix)

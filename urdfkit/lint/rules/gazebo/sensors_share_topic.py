@@ -46,10 +46,6 @@ class SensorsShareTopic(RobotRule):
             if other.key == sensor.key or sensor.key in reported:
                 continue
             reported.add(sensor.key)
-            yield self.at(
-                model,
-                sensor.element,
-                f"`{sensor.name}` publishes on `{sensor.topic}`, which `{other.name}` also uses",
-                help=f"choose another topic; the other sensor is at {model.shown(other.element.origin.position)}",
-                names=(sensor.topic.strip("/"),),
-            )
+            message = f"`{sensor.name}` publishes on `{sensor.topic}`, which `{other.name}` also uses"
+            help = f"choose another topic; the other sensor is at {model.shown(other.element.origin.position)}"
+            yield self.at(model, sensor.element, message, help=help, names=(sensor.topic.strip("/"),))

@@ -57,7 +57,7 @@ class TopicWithBlank(RobotRule):
                 continue
             seen.add(id(element))
             corrected = re.sub(r"\s+", "_", re.sub(r"\s*(/|:=)\s*", r"\1", text.strip()))
-            fix = new_text(model, element, corrected, "unsafe", f"Replace with `{corrected}`")
+            fix = new_text(model, element, corrected, "unsafe")
             yield self.at(model, element, f"invalid topic name `{text}`: it contains white space", fix=fix)
 
     def _topics(self, model: Model) -> Iterator[tuple[str, Element]]:

@@ -52,14 +52,9 @@ class ValueAttributeInSdf(RobotRule):
             if child.tag == "plugin":
                 continue
             if list(child.attributes) == ["value"] and not child.text and not child.children:
-                yield self.at(
-                    model,
-                    child,
-                    f"<{child.tag}> has a value attribute but no text: SDF reads only the text",
-                    attribute="value",
-                    help=f"write <{child.tag}>{child.get('value')}</{child.tag}>",
-                    fix=_as_text(model, child),
-                )
+                message = f"<{child.tag}> has a value attribute but no text: SDF reads only the text"
+                help = f"write <{child.tag}>{child.get('value')}</{child.tag}>"
+                yield self.at(model, child, message, attribute="value", help=help, fix=_as_text(model, child))
             yield from self._check_children(model, child)
 
 

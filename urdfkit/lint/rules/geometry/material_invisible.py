@@ -60,13 +60,11 @@ class MaterialInvisible(RobotRule):
             if name not in used or _INTENTIONAL.search(name):
                 continue
             opaque = f"{(color.get('rgba') or '').rsplit(None, 1)[0]} 1"
-            yield self.at(
-                model,
-                color,
+            message = (
                 f"material `{name}` has an alpha of 0: its shapes are invisible"
                 if name
-                else "colour has an alpha of 0: the shape is invisible",
-                attribute="rgba",
-                help="set the fourth number, the opacity, to 1",
-                fix=new_value(model, color, "rgba", opaque, "unsafe", "Make the colour opaque"),
+                else "colour has an alpha of 0: the shape is invisible"
             )
+            help = "set the fourth number, the opacity, to 1"
+            fix = new_value(model, color, "rgba", opaque, "unsafe", "Make the colour opaque")
+            yield self.at(model, color, message, attribute="rgba", help=help, fix=fix)

@@ -75,16 +75,14 @@ class MaterialUndefined(RobotRule):
             from urdfkit.errors import nearest
 
             near = nearest(name, [other for other in defined if other])
-            yield self.at(
-                model,
-                material.element,
-                f"undefined material `{name}`",
-                attribute="name",
-                fix=_with_colour(model, material),
-                help=Suggestion(near, before="")
+            message = f"undefined material `{name}`"
+            fix = _with_colour(model, material)
+            help = (
+                Suggestion(near, before="")
                 if near
-                else f'add <material name="{name}"><color rgba="…"/></material> to the robot',
+                else f'add <material name="{name}"><color rgba="…"/></material> to the robot'
             )
+            yield self.at(model, material.element, message, attribute="name", fix=fix, help=help)
 
 
 def _is_definition(material: Material) -> bool:

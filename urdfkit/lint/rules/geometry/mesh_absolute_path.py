@@ -45,14 +45,11 @@ class MeshAbsolutePath(RobotRule):
                 continue
             match = re.search(r"([\w.-]+)/((?:meshes|mesh|models)/.+)$", uri.replace("\\", "/"))
             package_uri = f"package://{match[1]}/{match[2]}" if match else "package://…"
-            yield self.at(
-                model,
-                element,
-                f"mesh `{uri}` is referenced by an absolute path",
-                attribute="filename",
-                link=link.name,
-                help=f"write {package_uri}",
-                fix=new_value(model, element, "filename", package_uri, "unsafe", f"Replace with {package_uri}")
+            message = f"mesh `{uri}` is referenced by an absolute path"
+            help = f"write {package_uri}"
+            fix = (
+                new_value(model, element, "filename", package_uri, "unsafe", f"Replace with {package_uri}")
                 if match
-                else None,
+                else None
             )
+            yield self.at(model, element, message, attribute="filename", link=link.name, help=help, fix=fix)

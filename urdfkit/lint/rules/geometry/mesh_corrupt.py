@@ -83,13 +83,8 @@ class MeshCorrupt(RobotRule):
                 elif box is None and path is not None and path.suffix.lower() in TITLES:
                     faults[mesh.uri] = faults[mesh.uri] or model.mesh_boxes.fault(mesh)
             if faults[mesh.uri]:
-                yield self.at(
-                    model,
-                    element,
-                    f"mesh `{mesh.uri.strip()}` {faults[mesh.uri]}",
-                    attribute="filename",
-                    link=link.name,
-                )
+                message = f"mesh `{mesh.uri.strip()}` {faults[mesh.uri]}"
+                yield self.at(model, element, message, attribute="filename", link=link.name)
 
 
 def _fault(path: Path) -> str:

@@ -72,9 +72,7 @@ class MeshFileMissing(RobotRule):
                 f"mesh `{mesh.uri.strip()}` not found" + Suggestion(near),
                 attribute="filename",
                 link=link.name,
-                fix=new_value(model, element, "filename", uri, "unsafe", f"Replace with `{uri}`")
-                if has_same_suffix
-                else None,
+                fix=new_value(model, element, "filename", uri, "unsafe") if has_same_suffix else None,
                 severity="note" if is_of_output else None,
                 cause=(f"format of {uri.rpartition('.')[2]}" if _is_other_format(mesh.uri.strip(), uri) else "")
                 if near

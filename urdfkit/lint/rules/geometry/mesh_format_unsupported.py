@@ -44,11 +44,6 @@ class MeshFormatUnsupported(RobotRule):
             suffix = mesh.uri.strip().rpartition("/")[2].rpartition(".")[2].lower()
             if suffix not in formats and "$" not in suffix and not model.is_unresolved(element, "filename"):
                 reader = f"{model.target} does" if model.target in _FORMATS else "most readers do"
-                yield self.at(
-                    model,
-                    element,
-                    f"mesh of link `{link.name}` is a .{suffix} file, which {reader} not read",
-                    attribute="filename",
-                    link=link.name,
-                    help=f"convert it to one of {', '.join(sorted(formats))}",
-                )
+                message = f"mesh of link `{link.name}` is a .{suffix} file, which {reader} not read"
+                help = f"convert it to one of {', '.join(sorted(formats))}"
+                yield self.at(model, element, message, attribute="filename", link=link.name, help=help)

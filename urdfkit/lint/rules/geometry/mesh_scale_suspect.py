@@ -98,15 +98,9 @@ class MeshScaleSuspect(RobotRule):
                 if element.get("scale") is not None
                 else more_attributes(model, element, f'scale="{scale}"', "unsafe", f"Scale by {scale}")
             )
-            yield self.at(
-                model,
-                element,
-                f"mesh of link `{link.name}` has a size of {size:.3g} m{comparison}",
-                attribute="scale",
-                link=link.name,
-                help=f'set scale="{scale}" if the mesh is too {defect} by {max(factor, 1.0 / factor):g}',
-                fix=fix,
-            )
+            message = f"mesh of link `{link.name}` has a size of {size:.3g} m{comparison}"
+            help = f'set scale="{scale}" if the mesh is too {defect} by {max(factor, 1.0 / factor):g}'
+            yield self.at(model, element, message, attribute="scale", link=link.name, help=help, fix=fix)
 
 
 def _is_other_unit(size: float, median: float) -> bool:

@@ -50,11 +50,6 @@ class RgbaOutOfRange(RobotRule):
                 alpha = rgba[3] if rgba[3] <= 1.0 else rgba[3] / 255.0
                 value = " ".join(f"{part:.4g}" for part in (*(part / 255.0 for part in rgba[:3]), alpha))
                 fix = new_value(model, color, "rgba", value, "safe", f"Replace with {value}")
-            yield self.at(
-                model,
-                color,
-                f'rgba="{color.get("rgba")}" has components outside the range 0 to 1',
-                attribute="rgba",
-                help="write each component as a number from 0 to 1",
-                fix=fix,
-            )
+            message = f'rgba="{color.get("rgba")}" has components outside the range 0 to 1'
+            help = "write each component as a number from 0 to 1"
+            yield self.at(model, color, message, attribute="rgba", help=help, fix=fix)

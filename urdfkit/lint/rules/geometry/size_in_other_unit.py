@@ -75,14 +75,9 @@ class SizeInOtherUnit(RobotRule):
             if not median or extent.diagonal <= _TIMES * median or _has_impossible_density(link, extent):
                 continue
             shape = shapes_of(link)[0].element
-            yield self.at(
-                model,
-                shape.find("geometry") or shape,
-                f"link `{name}` has a size of {extent.diagonal:.3g} m, "
-                f"more than {_TIMES:g} times the median size of the other parts",
-                link=name,
-                help="write sizes in metres",
-            )
+            message = f"link `{name}` has a size of {extent.diagonal:.3g} m, "
+            message += f"more than {_TIMES:g} times the median size of the other parts"
+            yield self.at(model, shape.find("geometry") or shape, message, link=name, help="write sizes in metres")
 
 
 def _has_impossible_density(link: Link, extent: Extent) -> bool:

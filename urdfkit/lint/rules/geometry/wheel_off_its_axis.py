@@ -66,15 +66,11 @@ class WheelOffItsAxis(RobotRule):
             distance = _distance(axis, offset)
             if distance > 0.1 * shape.radius:
                 origin = visual.element.find("origin") or visual.element
+                message = f"wheel `{wheel.name}` is drawn {distance:.3g} m off the axis of joint `{joint.name}`"
+                help = "move the offset to the <origin> of the joint"
+                fix = new_value(model, origin, "xyz", "0 0 0", "unsafe", "Centre the wheel on its axis")
                 yield self.at(
-                    model,
-                    origin,
-                    f"wheel `{wheel.name}` is drawn {distance:.3g} m off the axis of joint `{joint.name}`",
-                    attribute="xyz",
-                    link=wheel.name,
-                    joint=joint.name,
-                    help="move the offset to the <origin> of the joint",
-                    fix=new_value(model, origin, "xyz", "0 0 0", "unsafe", "Centre the wheel on its axis"),
+                    model, origin, message, attribute="xyz", link=wheel.name, joint=joint.name, help=help, fix=fix
                 )
 
 

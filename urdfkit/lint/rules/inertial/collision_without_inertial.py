@@ -52,10 +52,6 @@ class CollisionWithoutInertial(RobotRule):
         for link in robot.links:
             above = robot.parents_of.get(link.name, [])
             if link.collisions and link.inertial is None and above and all(joint.type == "fixed" for joint in above):
-                yield self.at(
-                    model,
-                    link.collisions[0].element,
-                    f"link `{link.name}` has a collision shape but no mass",
-                    link=link.name,
-                    help="add <inertial> with <mass> and <inertia>",
-                )
+                message = f"link `{link.name}` has a collision shape but no mass"
+                help = "add <inertial> with <mass> and <inertia>"
+                yield self.at(model, link.collisions[0].element, message, link=link.name, help=help)

@@ -80,14 +80,8 @@ class InertiaAxesSwapped(RobotRule):
                 message = f"the inertia of link `{link.name}` is that of a cylinder with radius and length swapped"
             element = inertial.element.find("inertia") or inertial.element
             shown = " ".join(f"{value:.3g}" for value in expected)
-            yield self.at(
-                model,
-                element,
-                message,
-                link=link.name,
-                help=f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>",
-                fix=computed(model, link, element),
-            )
+            help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
+            yield self.at(model, element, message, link=link.name, help=help, fix=computed(model, link, element))
 
 
 def _is_of_swapped_cylinder(link: Link, mass: float, actual: tuple[float, ...], expected: tuple[float, ...]) -> bool:

@@ -68,10 +68,8 @@ class InertiaCopyPaste(RobotRule):
             if not size_steps or inertial is None or inertial.inertia is None:
                 continue
             names = ", ".join(link.name for link in links[:3])
-            yield self.at(
-                model,
-                inertial.inertia.element,
-                f"{len(links)} links of different size share this inertia: {names}{' …' if len(links) > 3 else ''}",
-                link=links[0].name,
-                help="compute each tensor from shape and mass",
+            message = (
+                f"{len(links)} links of different size share this inertia: {names}{' …' if len(links) > 3 else ''}"
             )
+            help = "compute each tensor from shape and mass"
+            yield self.at(model, inertial.inertia.element, message, link=links[0].name, help=help)

@@ -61,12 +61,8 @@ class InertiaNotPositiveDefinite(RobotRule):
                     "warning" if is_rod or bodies.is_fixed(link) or bodies.is_small(link) else None
                 )
                 severity = "note" if bodies.is_negligible(link) else severity
-                yield self.at(
-                    model,
-                    element,
-                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², {which} {sign}",
-                    link=link.name,
-                    help="compute it from shape and mass; products of inertia are small compared with the diagonal",
-                    severity=severity,
-                    kind=sign,
+                message = (
+                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², {which} {sign}"
                 )
+                help = "compute it from shape and mass; products of inertia are small compared with the diagonal"
+                yield self.at(model, element, message, link=link.name, help=help, severity=severity, kind=sign)

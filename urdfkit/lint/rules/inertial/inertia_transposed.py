@@ -47,11 +47,7 @@ class InertiaTransposed(RobotRule):
                     continue
                 order, values = reordering
                 entries = {name: f"{value:g}" for name, value in zip(COMPONENTS, values, strict=True)}
-                yield self.at(
-                    model,
-                    element,
-                    f"inertia of link `{link.name}` is impossible; its entries appear to be written {order}",
-                    link=link.name,
-                    help=f"write {', '.join(f'{name}={text}' for name, text in entries.items())}",
-                    fix=new_values(model, element, entries, "unsafe", "Reorder the entries"),
-                )
+                message = f"inertia of link `{link.name}` is impossible; its entries appear to be written {order}"
+                help = f"write {', '.join(f'{name}={text}' for name, text in entries.items())}"
+                fix = new_values(model, element, entries, "unsafe", "Reorder the entries")
+                yield self.at(model, element, message, link=link.name, help=help, fix=fix)

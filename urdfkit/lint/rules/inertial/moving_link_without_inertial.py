@@ -81,15 +81,9 @@ class MovingLinkWithoutInertial(RobotRule):
             if not is_simulator(model) and not is_of_control:
                 severity = "note"  # It describes kinematics only.
             effect = f"joints move `{link.name}` and other links" if joint is not None else "the robot is free to move"
-            yield self.at(
-                model,
-                link.element,
-                f"no link of the robot has a mass, but {effect}",
-                attribute="name",
-                link=link.name,
-                help="add <inertial> with <mass> and <inertia> to every link that moves",
-                severity=severity,
-            )
+            message = f"no link of the robot has a mass, but {effect}"
+            help = "add <inertial> with <mass> and <inertia> to every link that moves"
+            yield self.at(model, link.element, message, attribute="name", link=link.name, help=help, severity=severity)
             return
         for link, joint in found:
             if link.inertial is not None:

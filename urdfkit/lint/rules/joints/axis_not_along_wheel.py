@@ -73,15 +73,10 @@ class AxisNotAlongWheel(RobotRule):
                 if _is_across(joint, axis, model):
                     shape = next(each for each in shapes_of(wheel) if isinstance(each.geometry, Cylinder))
                     place, attribute = shape.element.find("origin") or shape.element, "rpy"
-                yield self.at(
-                    model,
-                    place,
-                    f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about the axis of the wheel, "
-                    f"{expected} in the joint frame",
-                    attribute=attribute,
-                    joint=joint.name,
-                    help=f'write <axis xyz="{expected}"/>, or rotate the shape: a cylinder extends along its z axis',
-                )
+                message = f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about the axis of the wheel, "
+                message += f"{expected} in the joint frame"
+                help = f'write <axis xyz="{expected}"/>, or rotate the shape: a cylinder extends along its z axis'
+                yield self.at(model, place, message, attribute=attribute, joint=joint.name, help=help)
 
 
 def _is_across(joint: Joint, axis: Vector, model: Model) -> bool:

@@ -48,12 +48,6 @@ class AxisNotNormalised(RobotRule):
             if abs(length - 1.0) <= TOLERANCE or not joint.is_movable or axis is None or direction is None:
                 continue
             value = " ".join(f"{part + 0.0:.8g}" for part in direction)
-            yield self.at(
-                model,
-                axis,
-                f"the axis of joint `{joint.name}` has length {length:.4g} instead of 1",
-                attribute="xyz",
-                joint=joint.name,
-                help=f'write xyz="{value}"',
-                fix=new_value(model, axis, "xyz", value, "safe", "Normalise the axis"),
-            )
+            message = f"the axis of joint `{joint.name}` has length {length:.4g} instead of 1"
+            fix = new_value(model, axis, "xyz", value, "safe", "Normalise the axis")
+            yield self.at(model, axis, message, attribute="xyz", joint=joint.name, help=f'write xyz="{value}"', fix=fix)

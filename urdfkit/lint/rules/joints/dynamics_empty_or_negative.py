@@ -50,11 +50,6 @@ class DynamicsEmptyOrNegative(RobotRule):
             for name in ("damping", "friction"):
                 value = getattr(dynamics, name)
                 if value < 0.0:
-                    yield self.at(
-                        model,
-                        dynamics.element,
-                        f"{name} {value:g} {units[name]} of joint `{joint.name}` is negative",
-                        attribute=name,
-                        joint=joint.name,
-                        help="write a value of zero or more",
-                    )
+                    message = f"{name} {value:g} {units[name]} of joint `{joint.name}` is negative"
+                    help = "write a value of zero or more"
+                    yield self.at(model, dynamics.element, message, attribute=name, joint=joint.name, help=help)

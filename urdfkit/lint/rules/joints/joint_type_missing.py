@@ -44,16 +44,12 @@ class JointTypeMissing(RobotRule):
         for joint in model.robot.joints:
             if joint.type is None:
                 joint_type = _likely_type(joint)
-                yield self.at(
-                    model,
-                    joint.element,
-                    f"joint `{joint.name}` has no type",
-                    joint=joint.name,
-                    help=f'add type="{joint_type}", or another of {", ".join(JOINT_TYPES)}',
-                    fix=more_attributes(
-                        model, joint.element, f'type="{joint_type}"', "unsafe", f'Add type="{joint_type}"'
-                    ),
+                message = f"joint `{joint.name}` has no type"
+                help = f'add type="{joint_type}", or another of {", ".join(JOINT_TYPES)}'
+                fix = more_attributes(
+                    model, joint.element, f'type="{joint_type}"', "unsafe", f'Add type="{joint_type}"'
                 )
+                yield self.at(model, joint.element, message, joint=joint.name, help=help, fix=fix)
 
 
 def _likely_type(joint: Joint) -> str:

@@ -63,21 +63,13 @@ class JointTypeUnknown(RobotRule):
                 continue
             is_typo = nearest(joint.type.strip(), JOINT_TYPES, cutoff=0.85) is not None
             suggestion = _FOREIGN_TYPES.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
-            yield self.at(
+            message = f"unknown type `{joint.type}` of joint `{joint.name}`" + Suggestion(suggestion)
+            help = f"use one of {', '.join(JOINT_TYPES)}"
+            fix = new_value(
                 model,
                 joint.element,
-                f"unknown type `{joint.type}` of joint `{joint.name}`" + Suggestion(suggestion),
-                attribute="type",
-                joint=joint.name,
-                help=f"use one of {', '.join(JOINT_TYPES)}",
-                fix=new_value(
-                    model,
-                    joint.element,
-                    "type",
-                    suggestion,
-                    "safe" if is_typo else "unsafe",
-                    f"Replace with `{suggestion}`",
-                )
-                if suggestion
-                else None,
+                "type",
+                suggestion,
+                "safe" if is_typo else "unsafe",
             )
+            yield self.at(model, joint.element, message, attribute="type", joint=joint.name, help=help, fix=fix)

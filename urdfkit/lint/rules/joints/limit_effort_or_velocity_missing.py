@@ -48,10 +48,5 @@ class LimitEffortOrVelocityMissing(RobotRule):
             if missing:
                 units = _LINEAR_UNITS if joint.type == "prismatic" else _ANGULAR_UNITS
                 attributes = " and ".join(f"{name} {units[name]}" for name in missing)
-                yield self.at(
-                    model,
-                    limit.element,
-                    f"<limit> of joint `{joint.name}` lacks {' and '.join(missing)}",
-                    joint=joint.name,
-                    help=f"add {attributes}",
-                )
+                message = f"<limit> of joint `{joint.name}` lacks {' and '.join(missing)}"
+                yield self.at(model, limit.element, message, joint=joint.name, help=f"add {attributes}")

@@ -40,10 +40,6 @@ class LimitMissing(RobotRule):
                 alternative = (
                     ", or use the type `continuous` if it turns without limits" if joint.type == "revolute" else ""
                 )
-                yield self.at(
-                    model,
-                    joint.element,
-                    f"{joint.type} joint `{joint.name}` has no <limit>",
-                    joint=joint.name,
-                    help=f'add <limit lower="…" upper="…" effort="…" velocity="…"/> in {units}{alternative}',
-                )
+                message = f"{joint.type} joint `{joint.name}` has no <limit>"
+                help = f'add <limit lower="…" upper="…" effort="…" velocity="…"/> in {units}{alternative}'
+                yield self.at(model, joint.element, message, joint=joint.name, help=help)

@@ -60,15 +60,10 @@ class LimitsInDegrees(RobotRule):
                 value = getattr(limit, side)
                 are_degrees = all((2.0 * (bound or 0.0)).is_integer() for bound in (limit.lower, limit.upper))
                 converted = f": {value:g}° = {radians(value):.6g} rad" if are_degrees else ""
-                yield self.at(
-                    model,
-                    limit.element,
-                    f"{side} limit {value:g} rad of joint `{joint.name}` is {abs(value) / (2 * pi):.1f} turns",
-                    attribute=side,
-                    joint=joint.name,
-                    help="write limits in radians" + converted,
-                    fix=_in_radians(model, limit) if converted else None,
-                )
+                message = f"{side} limit {value:g} rad of joint `{joint.name}` is {abs(value) / (2 * pi):.1f} turns"
+                help = "write limits in radians" + converted
+                fix = _in_radians(model, limit) if converted else None
+                yield self.at(model, limit.element, message, attribute=side, joint=joint.name, help=help, fix=fix)
             elif (tiny := _converted_twice(model, limit)) is not None:
                 value = getattr(limit, tiny)
                 message = f"{tiny} limit {value:.3g} rad of joint `{joint.name}` is only {degrees(value):.3g}°"

@@ -57,15 +57,10 @@ class MimicBeyondLimits(RobotRule):
             if inside >= _PART * (high - low) or high <= low:
                 continue
             unit = "m" if joint.type == "prismatic" else "rad"
-            yield self.at(
-                model,
-                mimic.element,
-                f"joint `{joint.name}` mimics `{other.name}` from {low:.4g} to {high:.4g} {unit}, "
-                f"but its limits are {own[0]:.4g} and {own[1]:.4g} {unit}",
-                joint=joint.name,
-                names=(other.name,),
-                help="check the joint, the sign of the multiplier and the limits",
-            )
+            message = f"joint `{joint.name}` mimics `{other.name}` from {low:.4g} to {high:.4g} {unit}, "
+            message += f"but its limits are {own[0]:.4g} and {own[1]:.4g} {unit}"
+            help = "check the joint, the sign of the multiplier and the limits"
+            yield self.at(model, mimic.element, message, joint=joint.name, names=(other.name,), help=help)
 
 
 def _range(joint: Joint | None) -> tuple[float, float] | None:

@@ -85,9 +85,7 @@ class MimicJointUndefined(RobotRule):
                 f"joint `{joint.name}` mimics the undefined joint `{mimic.joint}`" + hint,
                 attribute="joint",
                 joint=joint.name,
-                fix=new_value(model, mimic.element, "joint", suggestion, "unsafe", f"Replace with `{suggestion}`")
-                if suggestion
-                else None,
+                fix=new_value(model, mimic.element, "joint", suggestion, "unsafe"),
                 kind="undefined",
                 names=(mimic.joint,),
             )

@@ -57,15 +57,10 @@ class SafetyControllerInconsistent(RobotRule):
             unit = "rad" if joint.type == "revolute" else "m"
             lower, upper = safety.soft_lower_limit, safety.soft_upper_limit
             if lower > upper and {"soft_lower_limit", "soft_upper_limit"} <= set(safety.element.attributes):
-                yield self.at(
-                    model,
-                    safety.element,
-                    f"soft_lower_limit {lower:g} {unit} of joint `{joint.name}` is greater than "
-                    f"soft_upper_limit {upper:g} {unit}",
-                    attribute="soft_lower_limit",
-                    joint=joint.name,
-                    help="swap the soft limits or correct their signs",
-                )
+                message = f"soft_lower_limit {lower:g} {unit} of joint `{joint.name}` is greater than "
+                message += f"soft_upper_limit {upper:g} {unit}"
+                help = "swap the soft limits or correct their signs"
+                yield self.at(model, safety.element, message, attribute="soft_lower_limit", joint=joint.name, help=help)
                 continue
             is_reported = False
             for attribute, soft, hard, is_outside in (
@@ -84,11 +79,8 @@ class SafetyControllerInconsistent(RobotRule):
             ):
                 if is_outside and attribute in safety.element.attributes and not is_reported:
                     is_reported = True  # the other limit usually has the same cause
-                    yield self.at(
-                        model,
-                        safety.element,
-                        f"{attribute} {soft:g} {unit} of joint `{joint.name}` is beyond the hard limit {hard:g} {unit}",
-                        attribute=attribute,
-                        joint=joint.name,
-                        help="write a soft limit within the hard limits",
+                    message = (
+                        f"{attribute} {soft:g} {unit} of joint `{joint.name}` is beyond the hard limit {hard:g} {unit}"
                     )
+                    help = "write a soft limit within the hard limits"
+                    yield self.at(model, safety.element, message, attribute=attribute, joint=joint.name, help=help)

@@ -70,15 +70,10 @@ class StrokeTooLong(RobotRule):
             for side in ("upper", "lower"):
                 value = abs(getattr(limit, side) or 0.0)
                 if size > 0.0 and value >= max(_MIN_STROKE, _TIMES * size):
-                    yield self.at(
-                        model,
-                        limit.element,
-                        f"{side} limit of joint `{joint.name}` is {getattr(limit, side):g} m, "
-                        f"but the whole robot extends {size:.3g} m",
-                        attribute=side,
-                        joint=joint.name,
-                        help="write limits of prismatic joints in metres",
-                    )
+                    message = f"{side} limit of joint `{joint.name}` is {getattr(limit, side):g} m, "
+                    message += f"but the whole robot extends {size:.3g} m"
+                    help = "write limits of prismatic joints in metres"
+                    yield self.at(model, limit.element, message, attribute=side, joint=joint.name, help=help)
                     break
             else:
                 lower, upper = limit.lower or 0.0, limit.upper or 0.0

@@ -76,14 +76,10 @@ class PrefixMissing(SourceRule):
                     continue
                 span = source.span(written.value_start, written.value_end)
                 correct = f"{prefix}{written.value}"
-                yield self.at(
-                    model,
-                    source.position(tag.start),
-                    f"`{written.value}` lacks the prefix of `{correct}`",
-                    attribute=written.name,
-                    help=f"write `{correct}`",
-                    fix=Fix("unsafe", f"Replace with `{correct}`", (Edit(span, correct),)),
-                )
+                message = f"`{written.value}` lacks the prefix of `{correct}`"
+                help = f"write `{correct}`"
+                fix = Fix("unsafe", f"Replace with `{correct}`", (Edit(span, correct),))
+                yield self.at(model, source.position(tag.start), message, attribute=written.name, help=help, fix=fix)
 
 
 def _name(tag: Tag) -> Attribute | None:

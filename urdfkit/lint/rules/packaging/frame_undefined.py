@@ -99,11 +99,8 @@ class FrameUndefined(RobotRule):
                     continue
                 if model.neighbouring_descriptions.define("link", name):
                     continue
-                finding = self.at_span(
-                    source.span(*match.span(3)),
-                    f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link" + hint,
-                    link=name,
-                )
+                message = f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link" + hint
+                finding = self.at_span(source.span(*match.span(3)), message, link=name)
                 yield from unless_masked(model, name, suggestion, finding)
 
     def _of_octomap(self, source: Source, match: re.Match[str], model: Model) -> Findings:

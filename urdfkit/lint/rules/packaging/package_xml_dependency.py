@@ -323,13 +323,9 @@ class PackageXmlDependency(RobotRule):
         if (meant := misspelling_of(name, near, version)) is not None:
             message = f"unknown package `{name}`" + Suggestion(meant, name)
             return self.at_span(span, message, severity="error", cause=f"package {name}", kind="misspelt")
-        return self.at_span(
-            span,
-            f"missing dependency on `{name}`",
-            help=f"add <exec_depend>{name}</exec_depend> to package.xml",
-            kind="own",
-            names=(name,),
-        )
+        message = f"missing dependency on `{name}`"
+        help = f"add <exec_depend>{name}</exec_depend> to package.xml"
+        return self.at_span(span, message, help=help, kind="own", names=(name,))
 
 
 def _is_of(file: str, package: Path) -> bool:

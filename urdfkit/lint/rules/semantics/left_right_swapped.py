@@ -67,38 +67,27 @@ class LeftRightSwapped(RobotRule):
             element = left.element or drive.plugin.element
             if lateral < 0.0 and abs(lateral) > abs(longitudinal):
                 is_legacy = drive.spec.generation == "ros1" and drive.spec.kind == "diff_drive"
-                yield self.at(
-                    model,
-                    element,
-                    f"left wheel `{left.joint.name}` is on the right side, at y = {left.place[1]:g} m",
-                    joint=left.joint.name,
-                    help="swap the two joint names"
-                    + (
-                        "; not for ROS Indigo, or Kinetic with legacyMode, which swap the sides themselves"
-                        if is_legacy
-                        else ""
-                    ),
-                    fix=_swap_sides(model, drive),
+                message = f"left wheel `{left.joint.name}` is on the right side, at y = {left.place[1]:g} m"
+                help = "swap the two joint names" + (
+                    "; not for ROS Indigo, or Kinetic with legacyMode, which swap the sides themselves"
+                    if is_legacy
+                    else ""
                 )
+                yield self.at(model, element, message, joint=left.joint.name, help=help, fix=_swap_sides(model, drive))
             wheels = (*drive.left, *drive.right)
             if all(wheel.axis[1] < -0.7 for wheel in wheels) and all(
                 wheel.joint.type == "continuous" for wheel in wheels
             ):
-                yield self.at(
-                    model,
-                    element,
-                    f"the axes of wheels `{left.joint.name}` and `{right.joint.name}` point right, "
-                    "so they roll backwards",
-                    joint=left.joint.name,
-                    help="reverse the axes: y points left",
-                )
+                message = f"the axes of wheels `{left.joint.name}` and `{right.joint.name}` point right, "
+                message += "so they roll backwards"
+                yield self.at(model, element, message, joint=left.joint.name, help="reverse the axes: y points left")
 
 
 def _swap_sides(model: Model, drive: TwoSided) -> Fix | None:
     """Return the fix that swaps the joint names of the two sides; None if one of them is not literal text."""
     edits: list[Edit] = []
     for wheel, opposite in zip((*drive.left, *drive.right), (*drive.right, *drive.left), strict=True):
-        fix = new_text(model, wheel.element, opposite.joint.name, "unsafe", "") if wheel.element is not None else None
+        fix = new_text(model, wheel.element, opposite.joint.name, "unsafe") if wheel.element is not None else None
         if fix is None:
             return None
         edits += fix.edits

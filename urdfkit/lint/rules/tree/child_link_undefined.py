@@ -37,14 +37,8 @@ class ChildLinkUndefined(RobotRule):
         """Yield a finding for each joint with an undefined child link."""
         for joint, name, element in dangling(model.robot, "child"):
             meant = meant_child(model.robot, name)
-            finding = self.at(
-                model,
-                element,
-                f"undefined child link `{name}` of joint `{joint.name}`" + Suggestion(meant, name),
-                attribute="link",
-                joint=joint.name,
-                names=(name,),
-                fix=new_value(model, element, "link", meant, "unsafe", f"Replace with `{meant}`") if meant else None,
-            )
+            message = f"undefined child link `{name}` of joint `{joint.name}`" + Suggestion(meant, name)
+            fix = new_value(model, element, "link", meant, "unsafe")
+            finding = self.at(model, element, message, attribute="link", joint=joint.name, names=(name,), fix=fix)
             is_repaired = model.target == "urdfkit"
             yield from unless_masked(model, name, meant, finding, is_repaired=is_repaired)

@@ -33,11 +33,6 @@ class DuplicateJoint(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with the name of an earlier one."""
         for joint, first in repeated(model.robot.joints):
-            yield self.at(
-                model,
-                joint.element,
-                f"duplicate joint `{joint.name}`",
-                attribute="name",
-                joint=joint.name,
-                help=f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}",
-            )
+            message = f"duplicate joint `{joint.name}`"
+            help = f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}"
+            yield self.at(model, joint.element, message, attribute="name", joint=joint.name, help=help)

@@ -47,14 +47,9 @@ class DuplicateLink(RobotRule):
             yield self._of_call(model, call, links)
         single = [(link, first) for link, first in pairs if not any(link in each for each in calls.values())]
         for link, first in single:
-            yield self.at(
-                model,
-                link.element,
-                f"duplicate link `{link.name}`",
-                attribute="name",
-                link=link.name,
-                help=f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}",
-            )
+            message = f"duplicate link `{link.name}`"
+            help = f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}"
+            yield self.at(model, link.element, message, attribute="name", link=link.name, help=help)
 
     def _of_call(self, model: Model, call: Expansion, links: list[Link]) -> Finding:
         joints = (one for one in model.robot.joints if call in one.element.origin.expansions)

@@ -42,15 +42,11 @@ class MultipleParents(RobotRule):
                 closes = f"; `{joint.name}` closes the loop {' → '.join([*loop, loop[0]])}" if loop else ""
                 child = joint.element.find("child") or joint.element
                 roots = {_root(model, each.parent) for each in (joint, first)} - {None}
+                message = f"link `{name}` is the child of both joint `{joint.name}` and joint `{first.name}`{closes}"
+                names = tuple(sorted(str(root) for root in roots)) if len(roots) == 2 else ()
+                help = f"give `{joint.name}` a separate child link, or remove one of the joints"
                 yield self.at(
-                    model,
-                    child,
-                    f"link `{name}` is the child of both joint `{joint.name}` and joint `{first.name}`{closes}",
-                    attribute="link",
-                    link=name,
-                    joint=joint.name,
-                    names=tuple(sorted(str(root) for root in roots)) if len(roots) == 2 else (),
-                    help=f"give `{joint.name}` a separate child link, or remove one of the joints",
+                    model, child, message, attribute="link", link=name, joint=joint.name, names=names, help=help
                 )
 
 

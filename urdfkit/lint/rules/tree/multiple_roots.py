@@ -51,14 +51,9 @@ class MultipleRoots(RobotRule):
         for link in roots:
             if link is not main:
                 label = f"link `{link.name}`" if link.name else "a link without a name"
-                yield self.at(
-                    model,
-                    link.element,
-                    f"{label} has no parent, but `{main.name}` is already the root",
-                    attribute="name",
-                    link=link.name,
-                    help=_suggested_change(joint_by_unknown_child, link.name, main.name) if link.name else None,
-                )
+                message = f"{label} has no parent, but `{main.name}` is already the root"
+                help = _suggested_change(joint_by_unknown_child, link.name, main.name) if link.name else None
+                yield self.at(model, link.element, message, attribute="name", link=link.name, help=help)
 
 
 def _links_below(robot: Robot, name: str) -> int:

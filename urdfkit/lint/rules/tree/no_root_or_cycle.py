@@ -46,12 +46,8 @@ class NoRootOrCycle(RobotRule):
             rootless = [link.name for link in robot.roots() if re.sub(r"_?link$", "", link.name) == stem != ""]
             is_parent_wrong = len(loop) == 1 and len(robot.parents_of.get(links[0], ())) == 1
             place = last.element.find("parent") if is_parent_wrong else None
-            yield self.at(
-                model,
-                place or last.element,
-                message,
-                attribute="link" if place is not None else "name",
-                joint=last.name,
-                names=tuple(rootless) if len(loop) == 1 else (),
-                help="remove one of the joints: each link has at most one parent" if len(loop) > 1 else None,
-            )
+            attribute = "link" if place is not None else "name"
+            names = tuple(rootless) if len(loop) == 1 else ()
+            help = "remove one of the joints: each link has at most one parent" if len(loop) > 1 else None
+            element = place or last.element
+            yield self.at(model, element, message, attribute=attribute, joint=last.name, names=names, help=help)

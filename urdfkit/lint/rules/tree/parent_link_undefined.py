@@ -49,9 +49,7 @@ class ParentLinkUndefined(RobotRule):
                 attribute="link",
                 joint=joint.name,
                 names=(name,),
-                fix=new_value(model, element, "link", suggestion, "unsafe", f"Replace with `{suggestion}`")
-                if suggestion
-                else None,
+                fix=new_value(model, element, "link", suggestion, "unsafe"),
                 help="a file that includes this one has to define it" if is_outside else None,
                 severity="note" if is_outside else None,
             )

@@ -43,11 +43,6 @@ class RootLinkHasInertia(RobotRule):
         """Yield a finding for a root link with a mass."""
         roots = model.robot.roots()
         if len(roots) == 1 and roots[0].inertial is not None and roots[0].inertial.mass:
-            yield self.at(
-                model,
-                roots[0].element,
-                f"root link `{roots[0].name}` has an inertia, which KDL ignores",
-                attribute="name",
-                link=roots[0].name,
-                help="add an empty root link, such as base_footprint, and connect it with a fixed joint",
-            )
+            message = f"root link `{roots[0].name}` has an inertia, which KDL ignores"
+            help = "add an empty root link, such as base_footprint, and connect it with a fixed joint"
+            yield self.at(model, roots[0].element, message, attribute="name", link=roots[0].name, help=help)

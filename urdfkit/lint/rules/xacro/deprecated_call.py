@@ -47,9 +47,6 @@ class DeprecatedCall(SourceRule):
             if any(start <= match.start() < end for start, end, _ in document.comments):
                 continue
             span = source.span(match.start(1), match.end(1))
-            yield self.at_span(
-                span,
-                "`load_yaml()` without `xacro.` is deprecated",
-                help="write `xacro.load_yaml()`",
-                fix=Fix("safe", "Replace with `xacro.load_yaml`", (Edit(span, "xacro.load_yaml"),)),
-            )
+            message = "`load_yaml()` without `xacro.` is deprecated"
+            fix = Fix("safe", "Replace with `xacro.load_yaml`", (Edit(span, "xacro.load_yaml"),))
+            yield self.at_span(span, message, help="write `xacro.load_yaml()`", fix=fix)

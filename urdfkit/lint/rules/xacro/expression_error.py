@@ -41,10 +41,5 @@ class ExpressionError(FaultRule):
             tag = model.tag(cause[0])
             value = tag.attributes[cause[1]].value if tag is not None else ""
             help = f"write a number; `{text}` uses the value at {model.shown(fault.position)}"
-            yield self.at(
-                model,
-                cause[0],
-                f"`{value}` is used in an expression, but is not a number",
-                attribute=cause[1],
-                help=help,
-            )
+            message = f"`{value}` is used in an expression, but is not a number"
+            yield self.at(model, cause[0], message, attribute=cause[1], help=help)

@@ -47,11 +47,7 @@ class IncludeWithParameters(SourceRule):
             for name, attribute in tag.attributes.items():
                 if name not in ("filename", "ns", "optional") and not name.startswith("xmlns") and name not in misspelt:
                     start = len(text[: attribute.start].rstrip())
-                    yield self.at(
-                        model,
-                        position,
-                        f"<xacro:include> has no attribute `{name}`",
-                        attribute=name,
-                        help="pass it to a macro that the file defines",
-                        fix=Fix("unsafe", f"Remove `{name}`", (Edit(source.span(start, attribute.end), ""),)),
-                    )
+                    message = f"<xacro:include> has no attribute `{name}`"
+                    help = "pass it to a macro that the file defines"
+                    fix = Fix("unsafe", f"Remove `{name}`", (Edit(source.span(start, attribute.end), ""),))
+                    yield self.at(model, position, message, attribute=name, help=help, fix=fix)

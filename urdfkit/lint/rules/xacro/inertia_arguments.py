@@ -69,14 +69,10 @@ class InertiaArguments(SourceRule):
                     if argument is None or link_mass is None or argument_mass is None or link_mass == argument_mass:
                         continue
                     span = source.span(argument.value_start, argument.value_end)
-                    yield self.at(
-                        model,
-                        source.position(call.start),
-                        f"mass {argument_mass:g} kg of `{call.name}` differs from the link mass, {link_mass:g} kg",
-                        attribute=name,
-                        help=f"write {masses[0].value}",
-                        fix=Fix("unsafe", f"Replace with {masses[0].value}", (Edit(span, masses[0].value),)),
-                    )
+                    message = f"mass {argument_mass:g} kg of `{call.name}` differs from the link mass, {link_mass:g} kg"
+                    help = f"write {masses[0].value}"
+                    fix = Fix("unsafe", f"Replace with {masses[0].value}", (Edit(span, masses[0].value),))
+                    yield self.at(model, source.position(call.start), message, attribute=name, help=help, fix=fix)
 
 
 def _may_name_mass(text: str) -> bool:

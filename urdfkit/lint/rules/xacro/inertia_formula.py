@@ -56,11 +56,9 @@ class InertiaFormula(SourceRule):
             attribute = attributes[error.component]
             formula = f"${{{error.right}}}"
             span = document.source.span(attribute.value_start, attribute.value_end)
+            message = f"wrong formula for {error.component}: the other two moments match a {error.shape}"
+            help = f"write {formula}"
+            fix = Fix("unsafe", f"Replace with {formula}", (Edit(span, formula),))
             yield self.at(
-                model,
-                document.source.position(tag.start),
-                f"wrong formula for {error.component}: the other two moments match a {error.shape}",
-                attribute=error.component,
-                help=f"write {formula}",
-                fix=Fix("unsafe", f"Replace with {formula}", (Edit(span, formula),)),
+                model, document.source.position(tag.start), message, attribute=error.component, help=help, fix=fix
             )

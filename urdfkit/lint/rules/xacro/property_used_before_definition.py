@@ -44,14 +44,10 @@ class PropertyUsedBeforeDefinition(FaultRule):
     def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, with the position of the definition in its help."""
         definition = f" ({model.shown(fault.defined_at)})" if fault.defined_at is not None else ""
-        yield self.at(
-            model,
-            fault,
-            f"property `{fault.name}` is used before it is defined",
-            attribute=fault.attribute,
-            help=f"move the definition{definition} before this use",
-            fix=_move_include(fault, model) or _move_definition(fault, model),
-        )
+        message = f"property `{fault.name}` is used before it is defined"
+        help = f"move the definition{definition} before this use"
+        fix = _move_include(fault, model) or _move_definition(fault, model)
+        yield self.at(model, fault, message, attribute=fault.attribute, help=help, fix=fix)
 
 
 def _move_include(fault: Fault, model: Model) -> Fix | None:

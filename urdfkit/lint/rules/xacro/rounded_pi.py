@@ -71,25 +71,18 @@ class RoundedPi(SourceRule):
             attribute = tag.attributes["rpy"]
             corrected = " ".join(exact or word for word, exact in zip(words, exact_words, strict=True))
             span = document.source.span(attribute.value_start, attribute.value_end)
-            yield self.at(
-                model,
-                document.source.position(tag.start),
-                f"angle {first} rad is a rounded multiple of π",
-                attribute="rpy",
-                help=f'write rpy="{corrected}"',
-                fix=Fix("unsafe", "Write the exact angle", (Edit(span, corrected),)),
-            )
+            message = f"angle {first} rad is a rounded multiple of π"
+            help = f'write rpy="{corrected}"'
+            fix = Fix("unsafe", "Write the exact angle", (Edit(span, corrected),))
+            yield self.at(model, document.source.position(tag.start), message, attribute="rpy", help=help, fix=fix)
         if ":property" not in text and "<property" not in text:
             return
         for match in re.finditer(_DEFINITION, text):
             value_of = number(match[2])
             if value_of is not None and abs(value_of - pi) < 2e-3:
-                yield self.at(
-                    model,
-                    document.source.position(match.start()),
-                    f"property `{match[1]}` duplicates the built-in `pi` of xacro",
-                    help="replace its uses with ${pi}",
-                )
+                message = f"property `{match[1]}` duplicates the built-in `pi` of xacro"
+                help = "replace its uses with ${pi}"
+                yield self.at(model, document.source.position(match.start()), message, help=help)
 
 
 def _exact(word: str, is_xacro: bool, tolerance: float) -> str | None:

@@ -51,20 +51,12 @@ class UnexpandedExpression(RobotRule):
                     if is_reported_at_source and model.literal(element, attribute) is None:
                         continue  # Reported at the property or argument that contains it.
                     corrected = correct_escapes(value)
-                    fix = (
-                        new_value(model, element, attribute, corrected, "safe", f"Replace with `{corrected}`")
-                        if corrected != value
-                        else None
-                    )
+                    fix = new_value(model, element, attribute, corrected, "safe") if corrected != value else None
                     message = f'xacro does not evaluate the expression in {attribute}="{value}"'
                     yield self.at(model, element, message, attribute=attribute, help="write ${…}", fix=fix)
             if element.text and is_unexpanded(element.text) and not model.is_unresolved(element):
                 corrected = correct_escapes(element.text)
-                fix = (
-                    new_text(model, element, corrected, "safe", f"Replace with `{corrected}`")
-                    if corrected != element.text
-                    else None
-                )
+                fix = new_text(model, element, corrected, "safe") if corrected != element.text else None
                 message = f"xacro does not evaluate the expression `{element.text}` in <{element.tag}>"
                 yield self.at(model, element, message, help="write ${…}", fix=fix)
 

@@ -48,10 +48,7 @@ class UnprefixedDirective(SourceRule):
             return
         for tag in document.walk():
             if is_unprefixed_directive(tag):
-                yield self.at(
-                    model,
-                    document.source.position(tag.start),
-                    f"directive `<{tag.name}>` lacks the `xacro:` prefix",
-                    help=f"write `<xacro:{tag.name}>`",
-                    fix=Fix("safe", f"Replace with `xacro:{tag.name}`", prefixing(document, tag)),
-                )
+                message = f"directive `<{tag.name}>` lacks the `xacro:` prefix"
+                help = f"write `<xacro:{tag.name}>`"
+                fix = Fix("safe", f"Replace with `xacro:{tag.name}`", prefixing(document, tag))
+                yield self.at(model, document.source.position(tag.start), message, help=help, fix=fix)

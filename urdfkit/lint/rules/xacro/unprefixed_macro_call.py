@@ -50,13 +50,10 @@ class UnprefixedMacroCall(SourceRule):
             return
         for tag in document.walk():
             if tag.name in macros and _is_call(tag, macros[tag.name]):
-                yield self.at(
-                    model,
-                    document.source.position(tag.start),
-                    f"call of macro `{tag.name}` lacks the `xacro:` prefix",
-                    help=f"write `<xacro:{tag.name}>`",
-                    fix=Fix("safe", f"Replace with `xacro:{tag.name}`", prefixing(document, tag)),
-                )
+                message = f"call of macro `{tag.name}` lacks the `xacro:` prefix"
+                help = f"write `<xacro:{tag.name}>`"
+                fix = Fix("safe", f"Replace with `xacro:{tag.name}`", prefixing(document, tag))
+                yield self.at(model, document.source.position(tag.start), message, help=help, fix=fix)
 
 
 def _near_definitions(text: str) -> set[str]:
