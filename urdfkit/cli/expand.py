@@ -47,7 +47,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.expand import expand
 
     model = named_robot(arguments.model, arguments)

@@ -116,7 +116,6 @@ def _change(path: Path, arguments: argparse.Namespace) -> FileChange | None:
     """Return the change of a file; None if the file is formatted already."""
     from urdfkit.description.xml.reader import shown_path
     from urdfkit.description.xml.source import content_of
-    from urdfkit.lint.fixes.file_changes import FileChange
 
     shown = shown_path(path)
     try:

@@ -57,7 +57,6 @@ def following(
     Raises:
         UrdfkitError: the source is unknown or cannot be reached.
     """
-    from urdfkit.app.replay.live_session import LiveSession
     from urdfkit.app.replay.observed_robot import ObservedRobot
 
     server = page.server

@@ -49,7 +49,6 @@ def replaying(
     from urdfkit.app.page import faults_on_page
     from urdfkit.app.repair_findings import note_repairs
     from urdfkit.app.replay.recorded_robot import RecordedRobot
-    from urdfkit.app.replay.replay_session import ReplaySession
     from urdfkit.app.viewer.shown_robot import ShownRobot
 
     server = page.server

@@ -105,7 +105,6 @@ def driving(
         UrdfkitError: the robot cannot be simulated in the world.
     """
     from urdfkit.app.simulation.initial_scene import InitialScene
-    from urdfkit.app.simulation.loop import DriveLoop
     from urdfkit.app.simulation.progress import Compilation, progress
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.scene.rays import cached, warmup

@@ -121,7 +121,7 @@ def sweep(
 
 
 def _world(world: World | str | Path) -> World:
-    from urdfkit.description.sdf import World, load_world
+    from urdfkit.description.sdf import load_world
 
     return world if isinstance(world, World) else load_world(world)
 

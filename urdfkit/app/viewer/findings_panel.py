@@ -43,7 +43,6 @@ class FindingsPanel:
             ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, the error that
             prevented the lint or some of its rules, or None.
         """
-        from urdfkit.app.viewer.source_links import SourceLinks
         from urdfkit.lint.engine.run import run
 
         self._findings = {}
@@ -105,8 +104,6 @@ class FindingsPanel:
         return f"{wanted.code}: {wanted.fix.title}, in {files}"
 
     def _entries(self) -> list[Entry]:
-        from urdfkit.lint.project.entry_files import Entry
-
         here, path = Path.cwd(), self.model.path.absolute()
         return [Entry(path.relative_to(here) if path.is_relative_to(here) else path)]
 
@@ -117,7 +114,7 @@ class FindingsPanel:
 
     def _options(self, settings: LintSettings) -> Options:
         """Return the options of ``urdfkit lint`` for this model, with its xacro arguments."""
-        from urdfkit.lint.project.options import TIME_LIMIT, Options
+        from urdfkit.lint.project.options import TIME_LIMIT
 
         target, folders = settings.target, tuple(Path(folder) for folder in self.model.package_path)
         return Options(

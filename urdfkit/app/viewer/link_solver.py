@@ -26,7 +26,7 @@ descent from the present one; otherwise joints would jump between configurations
 
 def request_schemas() -> dict[str, Schema]:
     """Return the requests of the page: a link and the pose in the root link that it is to have, and a link's map."""
-    from urdfkit.view.protocol.page_requests import Schema, flag, numbers, text
+    from urdfkit.view.protocol.page_requests import flag, numbers, text
 
     flags = dict.fromkeys(("turn", "limits", "collision_free", "all"), flag)
     return {
@@ -81,8 +81,6 @@ class LinkSolver:
         Raises:
             KinematicsError: an unknown link, or no joint moves it.
         """
-        from urdfkit.kinematics import Chain
-
         held = {name: value for name, value in positions.items() if name not in self._robot.joint_by_name}
         kept = self._chains.get(link)
         if kept is None or kept[0] != held:
@@ -121,8 +119,6 @@ class LinkSolver:
         return [search.free(best, pose, start, options) if search else best]
 
     def _search(self, link: str, chain: Chain, positions: Mapping[str, float]) -> CollisionFreeSearch:
-        from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
-
         search = self._searches.get(link)
         if search is None:
             self._searches[link] = search = CollisionFreeSearch(chain.serial)

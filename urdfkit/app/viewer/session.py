@@ -34,7 +34,7 @@ POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 def request_schemas() -> dict[str, Schema]:
     """Return the requests of the page: a fix by its finding's number, a point in a link's frame, a link's pose."""
     from urdfkit.app.viewer import link_solver
-    from urdfkit.view.protocol.page_requests import Schema, numbers, text, whole
+    from urdfkit.view.protocol.page_requests import numbers, text, whole
 
     return {
         "fix": Schema({"finding": whole()}),

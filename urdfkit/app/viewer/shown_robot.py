@@ -59,9 +59,8 @@ class ShownRobot:
         from urdfkit.description.loading import load_repaired, load_valid
         from urdfkit.description.repair_positions import at_attributes
         from urdfkit.description.xml.cost_limit import loading_limit
-        from urdfkit.kinematics import Kinematics
         from urdfkit.kinematics.mimic import without_impossible_mimics
-        from urdfkit.scene import MeshLoader, scene_of
+        from urdfkit.scene import scene_of
         from urdfkit.scene.placeholders import require_valid_shapes, with_placeholders
 
         loader = loader or MeshLoader(is_for_screen=True)
@@ -118,8 +117,6 @@ class MissingMeshes:
         """Return whether one of the files exists now; searches at most every `SEARCH_PERIOD`."""
         if not self._uris or (start := time.monotonic()) < self._due:
             return False
-        from urdfkit.description.packages.resolver import Packages
-
         packages = Packages(self._model.package_path, self._model.path)
         found = any(_exists(packages, uri, self._model.path) for uri in self._uris)
         now = time.monotonic()

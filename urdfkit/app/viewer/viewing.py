@@ -54,7 +54,6 @@ def view(
     """
     require_page("view", "view", modules=("rosbags",))
     from urdfkit.app.repair_findings import note_repairs
-    from urdfkit.app.viewer.shown_robot import ShownRobot
 
     model = model_argument(robot, arguments=arguments, package_path=package_path)
     shown = ShownRobot.read(model, strict=strict)
@@ -77,7 +76,7 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool
         strict: refuse changed files that need a repair.
     """
     from urdfkit.app.viewer.findings_panel import FindingsPanel
-    from urdfkit.app.viewer.session import Session, request_schemas
+    from urdfkit.app.viewer.session import request_schemas
     from urdfkit.network.access_control import is_loopback
 
     server = page.server
@@ -105,7 +104,6 @@ def html_page(
         messages: further messages for the page: type → values.
     """
     from urdfkit.app.viewer.findings_panel import FindingsPanel
-    from urdfkit.app.viewer.session import Session
     from urdfkit.view.html_export import Recording
 
     recording = Recording()

@@ -25,7 +25,6 @@ def parsed(source: Source) -> ast.Module | None:
 
 @lru_cache(maxsize=200)
 def _tree(text: str) -> ast.Module | None:
-    import ast
     import warnings
 
     from urdfkit.description.launch.python_inlining import inlined
@@ -59,7 +58,6 @@ class LaunchReader:
     """
 
     def __init__(self, tree: ast.Module) -> None:
-        import ast
         from collections import Counter
 
         values: dict[str, list[ast.expr | None]] = {}
@@ -77,8 +75,6 @@ class LaunchReader:
 
     def text(self, node: ast.expr, depth: int = 0) -> str | None:
         """Return the text of a constant expression; None for other expressions."""
-        import ast
-
         if isinstance(node, ast.Constant):
             return node.value if isinstance(node.value, str) else None
         if isinstance(node, ast.Name) and depth < 8 and (value := self.assigned.get(node.id)) is not None:
@@ -98,8 +94,6 @@ class LaunchReader:
 
         A computed part of a sum of lists, such as ``a if b else c``, counts as one item.
         """
-        import ast
-
         if depth > 8:
             return []
         if isinstance(node, ast.Name):
@@ -115,15 +109,11 @@ class LaunchReader:
 
     def _computed(self, node: ast.expr) -> list[ast.expr]:
         """Return an expression without known items as one item; an empty list has none."""
-        import ast
-
         value = self.assigned.get(node.id) if isinstance(node, ast.Name) else node
         return [] if isinstance(value, (ast.List, ast.Tuple, ast.BinOp)) else [node]
 
     def share(self, node: ast.expr) -> str | None:
         """Return the package whose share folder a call returns; None for other calls."""
-        import ast
-
         if isinstance(node, ast.Call) and name_of(node.func) in SHARE:
             words = [*node.args, *(word.value for word in node.keywords)]
             return self.text(words[0]) if len(words) == 1 else None
@@ -131,8 +121,6 @@ class LaunchReader:
 
     def path(self, node: ast.expr, depth: int = 0) -> tuple[str, str] | None:
         """Return package and path that an expression evaluates to; None if it is computed or not a package path."""
-        import ast
-
         if depth > 20:
             return None
         if isinstance(node, ast.Name) and (value := self.assigned.get(node.id)) is not None:
@@ -170,8 +158,6 @@ class LaunchReader:
 
 def assignments(target: ast.expr, value: ast.expr) -> Iterator[tuple[ast.Name, ast.expr]]:
     """Yield the names that an assignment binds, with their values; ``a, b = x, y`` binds two."""
-    import ast
-
     if isinstance(target, ast.Name):
         yield target, value
     elif isinstance(target, (ast.Tuple, ast.List)) and isinstance(value, (ast.Tuple, ast.List)):

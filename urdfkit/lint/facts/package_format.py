@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.finding import Severity
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.tags import Tag
 from urdfkit.record import record
 
@@ -46,8 +47,6 @@ def format_defects(files: BuildFiles) -> Iterator[FormatDefect]:
     root = files.root
     if root is None:
         return
-    from urdfkit.lint.fix_builders import nearest
-
     found = Counter(tag.name for tag in root.children)
     near_required = {nearest(name, REQUIRED, cutoff=0.8) for name in found}
     missing = [name for name in REQUIRED if name not in found and name not in near_required]
@@ -65,8 +64,6 @@ def format_defects(files: BuildFiles) -> Iterator[FormatDefect]:
 
 def _elements(root: Tag) -> Iterator[FormatDefect]:
     """Yield the elements that the format does not have."""
-    from urdfkit.lint.fix_builders import nearest
-
     form = root.attributes["format"].value if "format" in root.attributes else "1"
     if form not in ELEMENTS:
         yield FormatDefect(root, f"unknown format `{form}` of package.xml; use 1, 2 or 3", is_in_start_tag=True)

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from urdfkit.description.packages.related_files import dependencies_in, package_of
+from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, package_of
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -76,8 +76,6 @@ def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[Packag
         model: the linted model.
         declared: folder of a package → its name and its dependencies.
     """
-    from urdfkit.description.packages.related_files import LAUNCH
-
     for file, source in model.related_files.items():
         if not file.endswith((*LAUNCH, ".yaml", ".yml")):
             continue

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_folder
-from urdfkit.description.packages.related_files import LAUNCH, dependencies_in
+from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, package_of
 from urdfkit.lint.model.model import Model
 
 _DECLARED = r"<xacro:arg\b[^<>]*\bname\s*=\s*[\"']{}[\"'][^<>]*>"
@@ -52,8 +52,6 @@ def argument_in_path(model: Model, path: str) -> str:
 
 def is_declared_dependency(model: Model, package: str) -> bool:
     """Return whether the package.xml of the robot, or of a package it includes files from, depends on a package."""
-    from urdfkit.description.packages.related_files import package_of
-
     files = [Path(source.file) for source in model.expanded.sources.values()]
     folders = {folder for file in (model.expanded.path, *files) if (folder := package_of(file)) is not None}
     return any(package in dependencies_in(model.manifest(folder)) for folder in folders)

@@ -16,7 +16,6 @@ def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
 
 def meshes_of(link: Link) -> list[tuple[Mesh, Element, Link]]:
     """Return the meshes of a link that have a file name, each with its ``<mesh>`` element and the link."""
-    from urdfkit.description.urdf.robot import Mesh
     from urdfkit.lint.model.placement import shapes_of
 
     found = []

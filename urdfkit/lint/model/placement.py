@@ -124,8 +124,6 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
     """
     shapes: list[tuple[Geometry, Pose]] = []
     volumes: list[float] = []
-    from urdfkit.description.urdf.robot import Pose
-
     groups: tuple[tuple[Visual | Collision, ...], ...] = (link.visuals, link.collisions)
     for group in groups:
         volume: float | None = 0.0

@@ -57,8 +57,6 @@ class RunOptions:
         Raises:
             UrdfkitError: robot or world cannot be simulated.
         """
-        from urdfkit.sim import Simulator
-
         return Simulator(
             robot,
             world=world,

@@ -10,6 +10,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, walk
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.record import record
 
 _LIMITS = [f"{kind}_{name}" for kind in ("max", "min") for name in ("velocity", "acceleration", "deceleration", "jerk")]
@@ -88,8 +89,6 @@ def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
     Yields:
         The YAML node, the suggested name, and a description of the name with its owner.
     """
-    from urdfkit.lint.fix_builders import nearest
-
     for key, group in _managers(source):
         name = key.last_name
         if name != "controller_manager" and nearest(name, ("controller_manager",), cutoff=0.9) is not None:
@@ -138,7 +137,6 @@ def _managers(source: Source) -> Iterator[tuple[Node, Node]]:
 def misspelt_sections(source: Source) -> Iterator[tuple[int, str, str]]:
     """Yield the misspelt names of ``ros__parameters`` and of controllers' sections: offset, name, suggested name."""
     from urdfkit.lint.facts.control.controller_joints import controllers
-    from urdfkit.lint.fix_builders import nearest
 
     text = uncommented(source)
     for key in re.finditer(_GROUP, text):
@@ -193,8 +191,6 @@ def _items(node: Node | None) -> tuple[Node, ...]:
 
 def misspelt(source: Source) -> Iterator[tuple[Node, str, ControllerSettings]]:
     """Yield the misspelt parameters of controllers: key, suggested name, settings of the controller."""
-    from urdfkit.lint.fix_builders import nearest
-
     for one in settings(source):
         parameters = OF_TYPES.get(one.kind)
         if parameters is None:

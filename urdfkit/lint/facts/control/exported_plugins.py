@@ -4,6 +4,7 @@ import re
 from itertools import islice
 from pathlib import Path
 
+from urdfkit.description.packages.related_files import neighbours
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import CPP, MAX_BYTES, code_texts
 
@@ -18,8 +19,6 @@ def is_exported_plugin(model: Model, kind: str) -> bool:
         model: the linted model.
         kind: lookup name of the plugin: ``package/Class``.
     """
-    from urdfkit.description.packages.related_files import neighbours
-
     if model.package is None:
         return False
     package, _, name = kind.partition("/")
@@ -36,8 +35,6 @@ def is_exported_plugin(model: Model, kind: str) -> bool:
 
 def is_built_library(model: Model, name: str) -> bool:
     """Return whether a package next to the robot's package builds a library, by its name without ``lib``, ``.so``."""
-    from urdfkit.description.packages.related_files import neighbours
-
     if model.package is None:
         return False
     built = re.compile(rf"(?<![\w-]){re.escape(name)}(?![\w-])")

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Robot, Transmission
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.fix_builders import nearest
 
 PACKAGE = "hardware_interface"
 """Package prefix of the interface names, before the slash."""
@@ -51,8 +53,6 @@ def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Elem
         element: a transmission, a block of ros2_control, or a part of one.
         where: path of element names.
     """
-    from urdfkit.lint.fix_builders import nearest
-
     allowed = _PARTS.get(where)
     if allowed is None:
         return
@@ -77,15 +77,11 @@ def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
 
 def is_misspelt(name: str) -> bool:
     """Return whether a hardware interface, without its package, is misspelt."""
-    from urdfkit.lint.fix_builders import nearest
-
     return name not in INTERFACES and nearest(name, INTERFACES, cutoff=0.85) is not None
 
 
 def meant_interface(name: str) -> str | None:
     """Return the standard ros2_control interface that a misspelt name stands for; None for a valid name."""
-    from urdfkit.lint.fix_builders import nearest
-
     return nearest(name, STANDARD, cutoff=0.85) if name not in STANDARD else None
 
 
@@ -105,8 +101,6 @@ def is_old(transmission: Transmission) -> bool:
 
 def has_default_hardware(robot: Robot) -> bool:
     """Return whether the robot has the plugin gazebo_ros_control with its default hardware, DefaultRobotHWSim."""
-    from urdfkit.lint.facts.gazebo.plugins import plugins
-
     found = (plugin.element for plugin, _, _ in plugins(robot) if "gazebo_ros_control" in (plugin.filename or ""))
     kinds = (element.find("robotSimType") for element in found)
     return any(kind is None or kind.text.endswith("DefaultRobotHWSim") for kind in kinds)
@@ -114,6 +108,4 @@ def has_default_hardware(robot: Robot) -> bool:
 
 def has_gazebo_ros_control(robot: Robot) -> bool:
     """Return whether the robot has the plugin gazebo_ros_control, which reads transmissions."""
-    from urdfkit.lint.facts.gazebo.plugins import plugins
-
     return any("gazebo_ros_control" in (plugin.filename or "") for plugin, _, _ in plugins(robot))

@@ -86,8 +86,6 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
         return
     if (tree := parsed(source)) is None:
         return
-    import ast
-
     from urdfkit.lint.facts.nodes.python_bindings import bindings, resolved
 
     reader = launch_reader(tree)
@@ -119,8 +117,6 @@ def packages_imported(source: Source, others: Collection[str]) -> Iterator[tuple
     """
     if not source.file.endswith(".py") or (tree := parsed(source)) is None:
         return
-    import ast
-
     from urdfkit.lint.facts.ros_packages import names
 
     optional = {each for node in ast.walk(tree) if isinstance(node, (ast.Try, ast.If)) for each in ast.walk(node)}
@@ -155,8 +151,6 @@ def place(source: Source, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, i
 
 def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> Iterator[PackagePath]:
     """Yield the package paths in a Python launch file that a reader can evaluate."""
-    import ast
-
     nodes = list(ast.walk(tree))
     inner: set[ast.AST] = set()  # parts of a longer path, and paths that are only tested for existence
     for node in nodes:

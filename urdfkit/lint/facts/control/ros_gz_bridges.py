@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
-from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.facts.control.launched_nodes import started
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, span_of, yamls
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -84,7 +85,6 @@ class Bridged:
 
 def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
     """Yield the bridges in a YAML file, each with its key nodes."""
-    from urdfkit.lint.facts.control.yaml_tree import documents, span_of
 
     def named(entry: Node, *keys: str) -> Named | None:
         node = next((node for key in keys if (node := entry.find(key)) is not None), None)
@@ -105,7 +105,6 @@ def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
 def bridged_topics(model: Model) -> Iterator[tuple[str, str, bool]]:
     """Yield the ROS topic of each bridge without slashes at its ends, its ROS type and whether Gazebo reads it."""
     from urdfkit.description.packages.related_files import LAUNCH
-    from urdfkit.lint.facts.control.yaml_tree import documents, yamls
 
     for source in yamls(model):
         for entry in (item for root in documents(source) for item in root.items):
@@ -123,8 +122,6 @@ def bridged_topics(model: Model) -> Iterator[tuple[str, str, bool]]:
 
 def malformed_in_launch(source: Source) -> Iterator[Named]:
     """Yield the arguments of a bridge that have a ROS message type but no Gazebo type."""
-    from urdfkit.lint.facts.control.launched_nodes import started
-
     for node in started(source):
         for word in node.arguments if node.program == "parameter_bridge" else ():
             if word is not None and re.fullmatch(r"[^@\s]+@\w+/msg/\w+", word.name):
@@ -133,8 +130,6 @@ def malformed_in_launch(source: Source) -> Iterator[Named]:
 
 def in_launch(source: Source) -> Iterator[Bridged]:
     """Yield the bridges in the node arguments of a launch file: ``topic@ros_type[gz_type``, or topics of images."""
-    from urdfkit.lint.facts.control.launched_nodes import started
-
     for node in started(source):
         if node.program not in ("parameter_bridge", "image_bridge"):
             continue

@@ -6,6 +6,7 @@ from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.urdf.geometry import rotate, rotation_of
 from urdfkit.description.urdf.robot import Cylinder, Joint, Plugin, Sphere, Vector
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import nearest, new_text
@@ -77,7 +78,6 @@ def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element
     None if the value is unknown, or set by a misspelt parameter, which is reported separately.
     """
     from urdfkit.description.plugins import values
-    from urdfkit.description.xml.numbers import number
 
     parameter = drive.spec.by_meaning(meaning)
     if parameter is None:
@@ -93,7 +93,6 @@ def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element
 def further(model: Model, drive: TwoSided, meaning: str) -> Iterator[tuple[int, tuple[float, Element, str]]]:
     """Yield the values of a parameter for the second pair of wheels and those after it, with the index of the pair."""
     from urdfkit.description.plugins import values
-    from urdfkit.description.xml.numbers import number
 
     parameter = drive.spec.by_meaning(meaning)
     for pair, (text, element) in enumerate(values(drive.plugin, parameter) if parameter is not None else ()):

@@ -17,6 +17,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.parameters.schemas import other_names
+from urdfkit.lint.facts.ros_packages import is_slip
 
 _PARAMETERS = """
 teleop_twist_joy_node teleop_twist_joy: require_enable_button enable_button enable_turbo_button axis_linear axis_angular
@@ -122,8 +123,6 @@ def parameters_of(node: str) -> tuple[str, ...]:
 
 def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str | None]]:
     """Yield the unknown parameters of well-known nodes in a launch file: key, package, suggested name or None."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     is_ros1 = source.file.endswith((".launch", ".xml")) and reads_ros1(source)
     for package, keys in _in_python(source) if source.file.endswith(".py") else _in_elements(source):
         accepted = _parameters(_OF_PACKAGES).get(package) or _parameters().get(_NODES.get(package, ""), ())
@@ -181,8 +180,6 @@ def _in_python(source: Source) -> Iterator[tuple[str, list[Named]]]:
 
 def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
     """Yield the misspelt parameters of well-known nodes in a YAML file: key, name of the node, suggested name."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     if not any(name in source.text for name in (*_parameters(), "base_link_frame")):
         return
     for document in documents(source):

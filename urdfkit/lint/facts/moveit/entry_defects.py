@@ -12,6 +12,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of
 from urdfkit.lint.facts.moveit.settings import CONTROLLER_TYPES, MoveitEntry, entries, unwrapped
+from urdfkit.lint.fix_builders import nearest
 
 _MANAGERS = ("moveit_simple_controller_manager", "moveit_ros_control_interface")
 _ACTIONS = ("follow_joint_trajectory", "gripper_cmd", "gripper_action")
@@ -64,8 +65,6 @@ def incomplete_entries(source: Source, is_ros2: bool, has_manager: bool) -> Defe
 
 
 def _is_misspelt(name: str, found: Iterable[str]) -> bool:
-    from urdfkit.lint.fix_builders import nearest
-
     return (
         nearest(name, [each for each in found if each not in _MANAGERS], cutoff=0.75 if len(name) < 8 else 0.85)
         is not None
@@ -153,8 +152,6 @@ def _joints(entry: MoveitEntry) -> tuple[Node, ...]:
 
 def controller_defects(entry: MoveitEntry) -> Defects:
     """Yield values of a MoveIt controller that have the wrong type, and misspelt actions."""
-    from urdfkit.lint.fix_builders import nearest
-
     name, seen = entry.name.text, set[str]()
     joints, action, default = (entry.settings.find(key) for key in ("joints", "action_ns", "default"))
     if joints is not None and joints.kind == "text" and joints.text:

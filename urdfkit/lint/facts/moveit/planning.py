@@ -15,6 +15,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, 
 from urdfkit.lint.facts.launch.ros_version import ros_version
 from urdfkit.lint.facts.moveit.plugin_names import PLUGINS, wrong_plugins
 from urdfkit.lint.facts.moveit.settings import unwrapped
+from urdfkit.lint.fix_builders import nearest
 
 _PLANNERS = """
 AITstar ABITstar AnytimePathShortening BFMT BITstar BKPIECE BiEST BiTRRT EST FMT KPIECE LBKPIECE LBTRRT LazyPRM
@@ -54,8 +55,6 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
         source: a MoveIt YAML file.
         groups: the names of the groups of the SRDF.
     """
-    from urdfkit.lint.fix_builders import nearest
-
     version = ros_version(source)
     for document in documents(source):
         yield from _plugins(document, version)
@@ -203,8 +202,6 @@ def _plugins(document: Node, version: int) -> Defects:
 
 def meant_plugin(text: str) -> str | None:
     """Return the plugin or MoveIt planner that a misspelt one stands for; None if the text may be right."""
-    from urdfkit.lint.fix_builders import nearest
-
     if "/" not in text and "::" not in text:
         return None
     names = {*_PLUGINS.split(), *(f"geometric::{name}" for name in _PLANNERS.split())}

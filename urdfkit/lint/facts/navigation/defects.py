@@ -39,6 +39,7 @@ from urdfkit.lint.facts.navigation.tables import (
     SWITCHES,
     VELOCITY_LIMITS,
 )
+from urdfkit.lint.facts.ros_packages import is_slip
 
 Defects = Iterator[tuple[Node, str]]
 
@@ -117,8 +118,6 @@ def _switches(node: Node) -> Defects:
 
 def _similar(node: Node) -> Defects:
     """Yield the misspelt values of parameters whose further values plugins define."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     for key, value in node.entries:
         is_word = value.kind == "text" and re.fullmatch(r"\w+", value.text)
         if key.text == "motion_model" and is_word and value.text not in MPPI_MODELS:
@@ -135,8 +134,6 @@ def _similar(node: Node) -> Defects:
 
 def _mux(group: Node) -> Defects:
     """Yield the defects of the inputs of twist_mux."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     for part in ("topics", "locks"):
         inputs = group.find(part)
         for name, entry in inputs.entries if inputs is not None else ():
@@ -187,8 +184,6 @@ def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 def _plugins(node: Node) -> Defects:
     """Yield plugins and observation sources that are listed without a section."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     defined = {key.text: (key, value) for key, value in node.entries if value.kind == "group"}
     for key, value in node.entries:
         if key.text == "observation_sources" and "," in value.text:
@@ -230,8 +225,6 @@ def _plugins(node: Node) -> Defects:
 
 def _contradictions(node: Node) -> Defects:
     """Yield an inflation that ends inside of the robot, and misspelt critics."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     radius = number_of(node.find("robot_radius"))
     for _, inner in node.entries if radius is not None and node.find("footprint") is None else ():
         inflated = inner.find("inflation_radius")
@@ -274,8 +267,6 @@ _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 def choice_defects(group: Node) -> Defects:
     """Yield unknown values of parameters with few values, misspelt frames, and a minimum above its maximum."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     for key, value in group.entries:
         choices = CHOICES.get(key.text, ())
         if choices and value.kind == "text" and value.text and "$" not in value.text and value.text not in choices:

@@ -9,6 +9,7 @@ from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk
 from urdfkit.lint.facts.navigation.sections import COSTMAPS, costmaps_of_ros1, sections
 from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1, DOUBLES, INTEGERS, NODES, OTHERS, PLUGINS, SWITCHES
+from urdfkit.lint.facts.ros_packages import is_slip
 
 _TOPICS = ("scan", "odom", "cmd_vel", "joint_states", "local_costmap", "global_costmap", "costmap_raw")
 
@@ -28,8 +29,6 @@ def misspelt_navigation(source: Source) -> tuple[tuple[Node, str, str], ...]:
 
 
 def _misspelt_in_ros2(source: Source) -> Iterator[tuple[Node, str, str]]:
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     named = [(key, group, key.last_name) for key, group in sections(source)]
     written = {name for _, _, name in named}
     for outer, value in (entry for root in documents(source) for entry in root.entries):
@@ -68,15 +67,11 @@ def _misspelt_in_ros2(source: Source) -> Iterator[tuple[Node, str, str]]:
 @lru_cache(maxsize=4000)
 def _nearest_parameters(name: str) -> tuple[str, ...]:
     """Return the Nav2 parameters that a name differs from by a slip, sorted."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     return tuple(each for each in sorted(_VALID) if is_slip(name, each))
 
 
 def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
     """Yield the misspelt parameters and namespaces of costmaps in a ROS 1 YAML file."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     costmaps = list(costmaps_of_ros1(source))
     for node in costmaps:
         names = {key.text for key, _ in node.entries}
@@ -92,8 +87,6 @@ def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
 
 def _meant_plugin(name: str) -> str | None:
     """Return the Nav2 plugin that a misspelt class stands for, or one with its class in another Nav2 package."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
     package, _, kind = name.rpartition("::")
     if name in PLUGINS:
         return None

@@ -13,6 +13,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, misspelt_word
 from urdfkit.lint.finding import Severity
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.record import record
 
 _TOKENS = r"#\[(=*)\[(?s:.*?)(?:\]\1\]|\Z)|#[^\n]*|\"(?:\\(?s:.)|[^\"\\])*\"|\[(=*)\[(?s:.*?)(?:\]\2\]|\Z)|\\.|[()]"
@@ -105,7 +106,6 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
 
 def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     """Yield misspelt variables, and destinations of variables that neither CMake nor catkin defines."""
-    from urdfkit.lint.fix_builders import nearest
     from urdfkit.lint.model.masked_names import is_typo
 
     is_whole = not any(command.name == "include" for command in every)
@@ -131,7 +131,6 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
 def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     """Yield a missing project(), and the calls of a build tool that find_package does not find."""
     from urdfkit.lint.facts.ros_packages import misspelling_of, names
-    from urdfkit.lint.fix_builders import nearest
 
     defined = {command.name for command in every}
     if "include" in defined:

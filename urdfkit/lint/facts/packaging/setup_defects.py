@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
 
@@ -37,16 +38,12 @@ def setup_defects(files: BuildFiles, source: Source, used: dict[str, str]) -> It
 
 def _keywords(tree: ast.Module) -> dict[str, ast.expr]:
     """Return the arguments of the call of setup()."""
-    import ast
-
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) == "setup"]
     return {word.arg: word.value for word in calls[0].keywords if word.arg} if len(calls) == 1 else {}
 
 
 def _text(reader: LaunchReader, node: ast.expr) -> str | None:
     """Return the text of a constant, of a sum of constants, or of os.path.join of constants."""
-    import ast
-
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         left, right = _text(reader, node.left), _text(reader, node.right)
         return None if left is None or right is None else left + right
@@ -58,8 +55,6 @@ def _text(reader: LaunchReader, node: ast.expr) -> str | None:
 
 def _installed(reader: LaunchReader, data: ast.expr) -> list[tuple[str, ast.expr, bool, ast.expr]] | None:
     """Return the paths and patterns in data_files, whether each is one, and its place; None if one is computed."""
-    import ast
-
     found = []
     if not isinstance(data, ast.List):
         return None
@@ -88,7 +83,6 @@ def _data_files(
     files: BuildFiles, source: Source, reader: LaunchReader, data: ast.expr | None, used: dict[str, str]
 ) -> Iterator[BuildDefect]:
     from urdfkit.description.packages.similar_names import near_path
-    from urdfkit.lint.facts.control.launch_package_paths import place
 
     installed = _installed(reader, data) if data is not None else None
     if installed is None or data is None:
@@ -145,9 +139,6 @@ def _folder_of(path: str) -> str:
 
 def _groups(source: Source, reader: LaunchReader, points: ast.expr | None) -> Iterator[BuildDefect]:
     """Yield a misspelt group of entry points, whose executables are not created."""
-    import ast
-
-    from urdfkit.lint.facts.control.launch_package_paths import place
     from urdfkit.lint.fix_builders import nearest
 
     keys = [key for key in points.keys if key is not None] if isinstance(points, ast.Dict) else []
@@ -163,10 +154,6 @@ def _packages(
     files: BuildFiles, source: Source, packages: ast.expr | None, scripts: list[tuple[str, int]]
 ) -> Iterator[BuildDefect]:
     """Yield an empty list of packages next to console scripts of a module in the package."""
-    import ast
-
-    from urdfkit.lint.facts.control.launch_package_paths import place
-
     own = [text for text, _ in scripts if re.search(rf"=\s*{re.escape(files.name)}[.:]", text)]
     if isinstance(packages, ast.List) and not packages.elts and own and files.has(f"{files.name}/__init__.py"):
         start, end = place(source, packages)
@@ -176,10 +163,6 @@ def _packages(
 
 def _scripts(source: Source, reader: LaunchReader, points: ast.expr | None) -> list[tuple[str, int]]:
     """Return the constant console scripts with their offsets."""
-    import ast
-
-    from urdfkit.lint.facts.control.launch_package_paths import place
-
     if not isinstance(points, ast.Dict):
         return []
     found = []
@@ -225,7 +208,6 @@ def _entry_point(files: BuildFiles, source: Source, text: str, start: int) -> It
 
 def _defined(files: BuildFiles, module: str) -> list[str] | None:
     """Return the names that a module defines; None if it may define others."""
-    import ast
     import warnings
 
     path = files.folder / module

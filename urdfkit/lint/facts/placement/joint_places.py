@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from urdfkit.description.urdf.geometry import box_around
+from urdfkit.description.urdf.geometry import box_around, rpy_of
 from urdfkit.description.urdf.robot import Joint, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.model.model import Model
@@ -141,6 +141,4 @@ def _overlap(place: Place) -> float:
 
 
 def _rpy(frame: Frame) -> Vector:
-    from urdfkit.description.urdf.geometry import rpy_of
-
     return rpy_of(frame.rotation)

@@ -1,6 +1,6 @@
 """Z831 plugin-parameter-missing."""
 
-from urdfkit.description.plugins.parameter_values import FLAGS
+from urdfkit.description.plugins.parameter_values import FLAGS, unpaired_wheels
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of, specs
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -52,7 +52,6 @@ class PluginParameterMissing(RobotRule):
         """Yield a finding for each required parameter that is missing, unless it is misspelt."""
         if model.is_incomplete:
             return
-        from urdfkit.description.plugins.parameter_values import unpaired_wheels
         from urdfkit.description.plugins.unread_parameters import unread
 
         for plugin, _, sensor in plugins(model.robot):

@@ -1,6 +1,6 @@
 """Z826 sensors-share-topic."""
 
-from urdfkit.lint.facts.gazebo.sensor_topics import Published
+from urdfkit.lint.facts.gazebo.sensor_topics import Published, published
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -37,8 +37,6 @@ class SensorsShareTopic(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each sensor on the topic of another sensor, once per sensor."""
-        from urdfkit.lint.facts.gazebo.sensor_topics import published
-
         first: dict[str, Published] = {}
         reported: set[tuple[str, str]] = set()
         for sensor in published(model):

@@ -1,6 +1,6 @@
 """J401 joint-type-missing."""
 
-from urdfkit.description.urdf.robot import Joint
+from urdfkit.description.urdf.robot import JOINT_TYPES, Joint
 from urdfkit.lint.fix_builders import more_attributes
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -39,8 +39,6 @@ class JointTypeMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint without a type."""
-        from urdfkit.description.urdf.robot import JOINT_TYPES
-
         for joint in model.robot.joints:
             if joint.type is None:
                 joint_type = _likely_type(joint)

@@ -1,9 +1,19 @@
 """L112 controller-parameters-missing."""
 
+import re
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.launch.spawned_controllers import Spawner
+from urdfkit.lint.facts.control.yaml_tree import yamls
+from urdfkit.lint.facts.launch.spawned_controllers import (
+    Spawner,
+    definitions,
+    is_mentioned_elsewhere,
+    loaders,
+    ros1_files,
+    spawners,
+    tags,
+)
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _OTHER_WAYS = r"--?param-file|--?controller-type|[\"' ]-[pt][\"' ]|load_controller"
@@ -40,8 +50,6 @@ class ControllerParametersMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each spawner, controller manager and MoveIt setting without parameters."""
-        from urdfkit.lint.facts.launch.spawned_controllers import definitions, ros1_files, spawners
-
         files = ros1_files(model)
         defined = definitions(model) if files else {}
         for spawner in spawners(files):
@@ -54,8 +62,7 @@ class ControllerParametersMissing(RobotRule):
 
     def _controller_list(self, model: Model, files: list[Source]) -> Findings:
         from urdfkit.description.packages.related_files import package_of
-        from urdfkit.lint.facts.control.yaml_tree import documents, yamls
-        from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, loaders, tags
+        from urdfkit.lint.facts.control.yaml_tree import documents
 
         for source, tag in tags(files, "param"):
             value = tag.attributes.get("value")
@@ -71,8 +78,6 @@ class ControllerParametersMissing(RobotRule):
                 yield self.at_span(source.span(tag.start, tag.end), message)
 
     def _controller_manager(self, model: Model) -> Findings:
-        import re
-
         from urdfkit.description.packages.related_files import LAUNCH
         from urdfkit.lint.facts.launch.started_nodes import started_nodes
 
@@ -90,8 +95,6 @@ class ControllerParametersMissing(RobotRule):
 
 def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tuple[Source, str]]], model: Model) -> str:
     """Return the message for a spawner whose controllers lack parameters; empty for the others."""
-    from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, loaders
-
     for name in spawner.names:
         of_name = defined.get(name, [])
         if len(of_name) != 1:
@@ -118,9 +121,6 @@ def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tupl
 
 def _is_misspelt(name: str, files: list[Source], model: Model) -> bool:
     """Return whether a launch file names a missing YAML file with nearly that name, which is reported there."""
-    import re
-
-    from urdfkit.lint.facts.control.yaml_tree import yamls
     from urdfkit.lint.fix_builders import nearest
 
     existing = {Path(file.file).name for file in yamls(model)}

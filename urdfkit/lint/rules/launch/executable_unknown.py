@@ -1,7 +1,14 @@
 """L103 executable-unknown."""
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.facts.launch.executables import Executables
+from urdfkit.lint.facts.launch.executables import (
+    Executables,
+    executables_of,
+    is_of_other_release,
+    released,
+    replacement_of,
+    wrong_components,
+)
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _RELEASES = {1: "ROS 1", 2: "this ROS 2 release"}
@@ -48,13 +55,6 @@ class ExecutableUnknown(RobotRule):
         """Yield a finding for each unknown executable."""
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.lint.facts.launch.actions import launch_files
-        from urdfkit.lint.facts.launch.executables import (
-            executables_of,
-            is_of_other_release,
-            released,
-            replacement_of,
-            wrong_components,
-        )
         from urdfkit.lint.facts.launch.ros_version import reads_version
         from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Mapping
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -52,7 +53,6 @@ class LaunchActionUnused(RobotRule):
         """Yield a finding for each action that is not used."""
         import re
 
-        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import first_slip
         from urdfkit.lint.facts.launch.python_names import python_files, undefined
 
@@ -75,8 +75,6 @@ class LaunchActionUnused(RobotRule):
                     yield found
 
     def _finding(self, source: Source, node: ast.Name, kind: str, is_target: bool, at: ast.expr) -> Finding:
-        from urdfkit.lint.facts.control.launch_package_paths import place
-
         only = "is only the target of an event handler and " if is_target else ""
         effect = {
             "DeclareLaunchArgument": "the argument is not declared",
@@ -115,8 +113,6 @@ def _started_again(tree: ast.Module, created: Mapping[str, object]) -> ast.Name 
 
 def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str], set[str]]:
     """Return the variables that only hold actions, the names that are used, and those used as targets of handlers."""
-    import ast
-
     from urdfkit.description.launch.python_constants import assignments
     from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
 

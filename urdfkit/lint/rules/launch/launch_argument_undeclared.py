@@ -6,6 +6,7 @@ import re
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.launch.actions import launch_files
 from urdfkit.lint.facts.launch.records import LaunchActions
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -43,8 +44,6 @@ class LaunchArgumentUndeclared(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undeclared name."""
-        from urdfkit.lint.facts.launch.actions import launch_files
-
         files = list(launch_files(model))
         elsewhere = {name for file in files if not file.is_ros1 for name in (*file.declared, *file.assigned)}
         elsewhere |= {word.name for file in files if not file.is_ros1 for call in file.includes for word in call.passed}
@@ -113,8 +112,6 @@ class LaunchArgumentUndeclared(RobotRule):
 
 def _unused(file: LaunchActions, name: str, model: Model) -> Named | None:
     """Return the only declaration that is not used or passed, if a file that includes this file passes a name."""
-    from urdfkit.lint.facts.launch.actions import launch_files
-
     files = list(launch_files(model))
     passed = {word.name for each in files for call in each.includes for word in call.passed}
     used = {word.name for word, _ in file.used} | passed

@@ -7,6 +7,7 @@ from pathlib import Path
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.launch.receivers import OUTSIDE, receiver
 from urdfkit.lint.facts.launch.records import Call, LaunchActions
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -45,9 +46,8 @@ class LaunchArgumentUnknown(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown or missing argument."""
-        from urdfkit.lint.facts.control.controller_joints import Named
         from urdfkit.lint.facts.launch.actions import launch_files
-        from urdfkit.lint.facts.launch.receivers import OUTSIDE, actions_at, misspelt_file, receiver
+        from urdfkit.lint.facts.launch.receivers import actions_at, misspelt_file
 
         for file in launch_files(model):
             for call in file.includes:
@@ -93,7 +93,7 @@ class LaunchArgumentUnknown(RobotRule):
                 yield self._at(file, name, message, self.severity)
 
     def _include(self, file: LaunchActions, call: Call, actions: LaunchActions, model: Model) -> Findings:
-        from urdfkit.lint.facts.launch.receivers import OUTSIDE, included_files
+        from urdfkit.lint.facts.launch.receivers import included_files
 
         names, target = set(actions.declared), call.path.rpartition("/")[2]
         only_misspelt = actions.is_computed or (not actions.declared and not file.is_ros1)
@@ -126,7 +126,6 @@ class LaunchArgumentUnknown(RobotRule):
 
     def _xacro(self, file: LaunchActions, call: Call, model: Model) -> Findings:
         from urdfkit.description.xacro.declared_arguments import declared_arguments, is_used
-        from urdfkit.lint.facts.launch.receivers import receiver
 
         path = receiver(call, model) if call.passed else None
         # The description of another robot can be a part of this one.

@@ -2,8 +2,10 @@
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.launch.xml_elements import ELEMENTS
 from urdfkit.lint.finding import Finding, Severity
-from urdfkit.lint.model.tags import Attribute, Tag
+from urdfkit.lint.fix_builders import nearest
+from urdfkit.lint.model.tags import Attribute, Document, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -44,7 +46,6 @@ class LaunchElementInvalid(RobotRule):
         """Yield a finding for each unknown element, attribute and substitution, and for missing attributes."""
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.packaging.build_files import is_well_formed
-        from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():
             if name.endswith((".launch.yaml", "_launch.yaml")):
@@ -72,7 +73,6 @@ class LaunchElementInvalid(RobotRule):
 
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
         from urdfkit.lint.facts.launch.xml_elements import OTHER_SUBSTITUTIONS, SUBSTITUTIONS
-        from urdfkit.lint.fix_builders import nearest
 
         others, defined = OTHER_SUBSTITUTIONS[version], SUBSTITUTIONS[version]
         for use in re.finditer(r"\$\(([\w-]+)(?=[\s)])", uncommented(source)):
@@ -86,8 +86,6 @@ class LaunchElementInvalid(RobotRule):
             yield self._at(source, use.span(), f"`{use[0]}` has no closing parenthesis")
 
     def _tag(self, source: Source, tag: Tag, version: int) -> Findings:
-        from urdfkit.lint.facts.launch.xml_elements import ELEMENTS
-
         above = tag.parent
         if above is not None:
             message = _unknown(tag.name, above.name, version)
@@ -130,7 +128,7 @@ class LaunchElementInvalid(RobotRule):
 def _unknown(name: str, above: str, version: int) -> str | None:
     """Return the message for an element that its parent cannot contain; None for the others."""
     from urdfkit.lint.facts.launch.python_api import differs_by_a_letter
-    from urdfkit.lint.facts.launch.xml_elements import ACTIONS, ANY, ELEMENTS, OTHER_ELEMENTS
+    from urdfkit.lint.facts.launch.xml_elements import ACTIONS, ANY, OTHER_ELEMENTS
 
     table = ELEMENTS[version]
     children = table[above].children if above in table else ()
@@ -152,7 +150,6 @@ def _unknown(name: str, above: str, version: int) -> str | None:
 def _meant(attribute: Attribute, tag: Tag, valid: tuple[str, ...], version: int) -> str | None:
     """Return the attribute that was meant by an unknown one, empty if none is similar; None for known attributes."""
     from urdfkit.lint.facts.launch.xml_elements import OTHER_WORDS
-    from urdfkit.lint.fix_builders import nearest
 
     name = attribute.name
     if name in (*valid, "if", "unless") or ":" in name or name == "xmlns":

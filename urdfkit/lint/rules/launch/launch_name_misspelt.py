@@ -9,6 +9,7 @@ from functools import lru_cache
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -72,7 +73,6 @@ class LaunchNameMisspelt(RobotRule):
         """Yield a finding for each misspelt name."""
         from urdfkit.description.packages.related_files import LAUNCH
         from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
-        from urdfkit.lint.facts.control.launch_package_paths import uncommented
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
@@ -128,7 +128,6 @@ class LaunchNameMisspelt(RobotRule):
 
     def _of_moveit(self, source: Source) -> Findings:
         """Yield a finding for each misspelt plugin and for each misspelt parameter behind an argument."""
-        from urdfkit.lint.facts.control.launch_package_paths import uncommented
         from urdfkit.lint.facts.moveit.planning import meant_plugin
 
         text = uncommented(source)
@@ -162,7 +161,6 @@ def _nearest(written: str, names: tuple[str, ...]) -> str | None:
 
 def _remapped(source: Source) -> Iterator[tuple[Named, str]]:
     """Yield the topics in remappings in XML that differ from a topic by a final ``s`` or by ``-``, and namespaces."""
-    from urdfkit.lint.facts.control.controller_joints import Named
     from urdfkit.lint.model.tags import Document
 
     for tag in (tag for root in Document(source).roots for tag in root.walk() if tag.name in ("remap", "rosparam")):

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.model.tags import Attribute, Tag
+from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.related_files import neighbours
+from urdfkit.errors import did_you_mean
+from urdfkit.lint.facts.launch.actions import share_of
+from urdfkit.lint.model.tags import Attribute, Document, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _BOOLEANS = {
@@ -81,7 +86,6 @@ class LaunchValueInvalid(RobotRule):
             unread_semantics,
             untimed_pipelines,
         )
-        from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():
             if not name.endswith((".launch", ".launch.xml", "_launch.xml")):
@@ -127,9 +131,7 @@ _SYNONYMS = {"string": "str", "double": "float", "integer": "int", "boolean": "b
 
 
 def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> Iterator[tuple[Attribute, str]]:
-    import re
-
-    from urdfkit.errors import did_you_mean, nearest
+    from urdfkit.errors import nearest
     from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
     attributes = tag.attributes
@@ -179,8 +181,6 @@ def _untyped(tags: list[Tag]) -> Iterator[Attribute]:
 
 def _conditions(tags: list[Tag]) -> Iterator[tuple[Attribute, str]]:
     """Yield the defaults of arguments that are conditions and neither true nor false."""
-    import re
-
     used = {attribute.value.strip() for tag in tags for name, attribute in tag.attributes.items() if name in _WHEN}
     conditions = {match[1] for value in used if (match := re.fullmatch(r"\$\((?:arg|var)\s+([\w-]+)\s*\)", value))}
     for tag in tags:
@@ -194,11 +194,6 @@ def _conditions(tags: list[Tag]) -> Iterator[tuple[Attribute, str]]:
 
 
 def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterator[tuple[Attribute, str]]:
-    from urdfkit.description.packages.existence import is_file
-    from urdfkit.description.packages.related_files import neighbours
-    from urdfkit.errors import did_you_mean
-    from urdfkit.lint.facts.launch.actions import share_of
-
     command = attributes["command"]
     if "$(" not in command.value and command.value not in ("load", "dump", "delete"):
         hint = did_you_mean(command.value, ("load", "dump", "delete"))
@@ -213,8 +208,6 @@ def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterat
 def _parameter(
     attributes: dict[str, Attribute], model: Model, defaults: dict[str, str]
 ) -> Iterator[tuple[Attribute, str]]:
-    import re
-
     for name in ("value", "textfile", "command"):
         attribute = attributes.get(name)
         if attribute is None:
@@ -231,17 +224,12 @@ def _parameter(
 
 def _default(text: str, defaults: dict[str, str]) -> str:
     """Return the default of an argument; other texts as they are."""
-    import re
-
     use = re.fullmatch(r"\s*\$\(arg\s+([\w-]+)\s*\)\s*", text)
     return defaults.get(use[1], text) if use is not None else text
 
 
 def _is_xacro(text: str, model: Model) -> bool:
     """Return whether a path names a file of this workspace that uses xacro."""
-    from urdfkit.description.packages.existence import is_file
-    from urdfkit.description.packages.related_files import neighbours
-    from urdfkit.lint.facts.launch.actions import share_of
     from urdfkit.lint.project.description_files import SUFFIXES, text_of
 
     model.watch(*SUFFIXES)

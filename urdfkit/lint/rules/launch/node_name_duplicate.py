@@ -1,6 +1,6 @@
 """L111 node-name-duplicate."""
 
-from urdfkit.lint.model.tags import Tag
+from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -35,7 +35,6 @@ class NodeNameDuplicate(RobotRule):
         from urdfkit.lint.facts.launch.python_names import python_files
         from urdfkit.lint.facts.launch.repetitions import repeated_nodes, repeated_simulators
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
-        from urdfkit.lint.model.tags import Document
 
         for file, source in model.related_files.items():
             if not file.endswith((".launch", ".launch.xml", "_launch.xml")):

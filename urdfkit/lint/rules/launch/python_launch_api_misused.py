@@ -3,8 +3,9 @@
 import ast
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.description.launch.python_constants import LaunchReader
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -49,10 +50,6 @@ class PythonLaunchApiMisused(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each wrong import, keyword and list."""
-        import ast
-
-        from urdfkit.description.launch.python_constants import launch_reader
-        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
         from urdfkit.lint.facts.launch.python_values import wrong_values
         from urdfkit.lint.facts.nodes.python_bindings import miscalled
@@ -71,7 +68,6 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, span, message)
 
     def _import(self, source: Source, node: ast.ImportFrom) -> Findings:
-        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import wrong_import, wrong_module
 
         module = node.module or ""
@@ -87,11 +83,7 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, place(source, word), message)
 
     def _call(self, source: Source, node: ast.Call, kind: str, reader: LaunchReader) -> Findings:
-        import ast
-
-        from urdfkit.description.launch.python_constants import name_of
         from urdfkit.errors import did_you_mean
-        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import LISTS, OF_FOXY, wrong_keyword
         from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
@@ -130,8 +122,6 @@ class PythonLaunchApiMisused(RobotRule):
 
 def _not_text(node: ast.expr) -> list[ast.expr]:
     """Return the numbers and truth values among the arguments of an include."""
-    import ast
-
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "items":
         node = node.func.value
     values = node.values if isinstance(node, ast.Dict) else []
@@ -140,10 +130,6 @@ def _not_text(node: ast.expr) -> list[ast.expr]:
 
 def _no_condition(node: ast.expr, reader: LaunchReader) -> str:
     """Return the class or type of an expression that is no condition; empty for others."""
-    import ast
-
-    from urdfkit.description.launch.python_constants import name_of
-
     node = reader.assigned.get(node.id) or node if isinstance(node, ast.Name) else node
     if isinstance(node, ast.Call):
         kind = name_of(node.func)
@@ -157,8 +143,6 @@ def _has_lists(kind: str) -> bool:
 
 def _is_no_list(node: ast.expr, reader: LaunchReader) -> bool:
     """Return whether an expression is a dictionary or a text."""
-    import ast
-
     if isinstance(node, ast.Name):
         node = reader.assigned.get(node.id) or node
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):

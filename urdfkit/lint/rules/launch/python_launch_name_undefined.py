@@ -3,7 +3,9 @@
 import ast
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.launch.python_constants import name_of
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FUNCTION = "generate_launch_description"
@@ -39,7 +41,6 @@ class PythonLaunchNameUndefined(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the first use of each undefined name, and for a missing description."""
-        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import first_slip
         from urdfkit.lint.facts.launch.python_names import defined, python_files, undefined
 
@@ -51,9 +52,6 @@ class PythonLaunchNameUndefined(RobotRule):
             yield from self._description(source, tree, _FUNCTION in names)
 
     def _description(self, source: Source, tree: ast.Module, is_defined: bool) -> Findings:
-        import ast
-
-        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import differs_by_a_letter
         from urdfkit.lint.facts.launch.python_names import own_nodes
 
@@ -84,27 +82,17 @@ class PythonLaunchNameUndefined(RobotRule):
 
 def _is_description(node: ast.AST) -> bool:
     """Return whether a statement creates a LaunchDescription without using it."""
-    import ast
-
-    from urdfkit.description.launch.python_constants import name_of
-
     called = node.value if isinstance(node, ast.Expr) else None
     return isinstance(called, ast.Call) and name_of(called.func) == "LaunchDescription"
 
 
 def _has_actions(node: ast.Expr) -> bool:
     """Return whether a statement is a list of calls that no code uses, or a list of names."""
-    import ast
-
     return isinstance(node.value, (ast.List, ast.Tuple)) and bool(node.value.elts)
 
 
 def _opaque(tree: ast.Module) -> set[str]:
     """Return the names of the functions that an OpaqueFunction calls."""
-    import ast
-
-    from urdfkit.description.launch.python_constants import name_of
-
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) == "OpaqueFunction"]
     values = [each for call in calls for each in (*call.args, *(word.value for word in call.keywords))]
     return {each.id for each in values if isinstance(each, ast.Name)}
@@ -112,6 +100,4 @@ def _opaque(tree: ast.Module) -> set[str]:
 
 def _ends(node: ast.AST) -> bool:
     """Return whether a statement returns a value or raises an error."""
-    import ast
-
     return isinstance(node, ast.Raise) or (isinstance(node, ast.Return) and node.value is not None)

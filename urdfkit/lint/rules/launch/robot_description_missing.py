@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.launch.spawned_controllers import tags
 from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -57,7 +58,7 @@ class RobotDescriptionMissing(RobotRule):
     def _in_ros1(self, model: Model) -> Findings:
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.receivers import OUTSIDE, included_files
-        from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, ros1_files, tags
+        from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, ros1_files
 
         files = ros1_files(model)
         below: dict[str, list[Source] | None] = {}
@@ -83,8 +84,6 @@ class RobotDescriptionMissing(RobotRule):
 
 def _user(file: Source) -> Tag | None:
     """Return the first node of a launch file that reads ``robot_description``."""
-    from urdfkit.lint.facts.launch.spawned_controllers import tags
-
     for _, tag in tags([file], "node"):
         values = {name: each.value for name, each in tag.attributes.items()}
         words = values.get("args", "").split()
@@ -98,8 +97,6 @@ def _user(file: Source) -> Tag | None:
 
 def _is_complete(files: list[Source]) -> bool:
     """Return whether launch files start a whole robot: Gazebo or RViz with sliders."""
-    from urdfkit.lint.facts.launch.spawned_controllers import tags
-
     programs = {tag.attributes["type"].value for _, tag in tags(files, "node") if "type" in tag.attributes}
     includes = [tag.attributes["file"].value for _, tag in tags(files, "include") if "file" in tag.attributes]
     if "spawn_model" in programs and any("gazebo_ros)" in file for file in includes):

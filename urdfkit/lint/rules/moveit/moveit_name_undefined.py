@@ -3,9 +3,10 @@
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.facts.control.yaml_tree import Node, span_of, yamls
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.model.masked_names import unless_masked
+from urdfkit.lint.fix_builders import meant
+from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -48,7 +49,6 @@ class MoveitNameUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""
         from urdfkit.lint.facts.control.controller_joints import controllers
-        from urdfkit.lint.facts.control.yaml_tree import yamls
         from urdfkit.lint.facts.moveit.code_names import undefined_in_code
         from urdfkit.lint.facts.moveit.initial_poses import undefined_poses
         from urdfkit.lint.facts.moveit.settings import controller_names, entries, moveit_yamls
@@ -90,8 +90,6 @@ class MoveitNameUndefined(RobotRule):
                     yield self._at(source, names[-1] if names and len(unlisted) == 1 else node, message, ())
 
     def _joint(self, source: Source, node: Node, model: Model, others: object) -> Findings:
-        from urdfkit.lint.fix_builders import meant
-
         name, robot = node.text, model.robot
         if not name or name in robot.joint_by_name or name in others:  # type: ignore[operator]
             return
@@ -106,7 +104,6 @@ class MoveitNameUndefined(RobotRule):
     def _near(self, source: Source, node: Node, message: str, name: str, defined: list[str]) -> Findings:
         """Yield a finding if the name is a misspelling of a defined name."""
         from urdfkit.lint.fix_builders import nearest
-        from urdfkit.lint.model.masked_names import is_typo
 
         near = nearest(name, defined, cutoff=0.8)
         if near is not None and is_typo(name, near):
@@ -116,7 +113,6 @@ class MoveitNameUndefined(RobotRule):
         """Yield a finding if the parameters of a ROS 1 controller are in a namespace that its name lacks."""
         from urdfkit.lint.facts.control.launched_nodes import launches
         from urdfkit.lint.facts.control.spawned_namespaces import paths_of_controllers
-        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         name = node.text.strip("/")
         paths = ["/".join(key.text for key in path) for other in yamls(model) for path in paths_of_controllers(other)]
@@ -131,8 +127,5 @@ class MoveitNameUndefined(RobotRule):
             yield self._at(source, node, f"controller `{name}` is in a namespace: its name is `{longer[0]}`", ())
 
     def _at(self, source: Source, node: Node, message: str, names: object) -> Finding:
-        from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.fix_builders import meant
-
         hint = meant(node.text.rpartition("/")[2], names)[1]  # type: ignore[arg-type]
         return self.at_span(span_of(source, node), message + hint, names=(node.text,))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.defect_message import DefectMessage, Suggestion
+from urdfkit.lint.facts.control.yaml_tree import number_of
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -114,8 +116,6 @@ def _defects(entry: MoveitEntry, model: Model) -> Iterator[tuple[Node, str]]:
 
 def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node, str]]:
     """Yield the misspelt parameters with their messages."""
-    from urdfkit.lint.fix_builders import nearest
-
     written = {key.text for key, _ in entry.settings.entries}
     for key, _ in entry.settings.entries:
         near = nearest(key.text, [name for name in names if name not in written], cutoff=0.85)
@@ -127,9 +127,8 @@ def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node
 
 
 def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
-    from urdfkit.lint.facts.control.yaml_tree import not_a_number, number_of
+    from urdfkit.lint.facts.control.yaml_tree import not_a_number
     from urdfkit.lint.facts.moveit.settings import SOLVER_KEYS, SOLVERS
-    from urdfkit.lint.fix_builders import nearest
 
     yield from _misspelt(entry, SOLVER_KEYS)
     solver = entry.settings.find("kinematics_solver")
@@ -169,7 +168,6 @@ def _not_boolean(entry: MoveitEntry) -> Iterator[tuple[str, Node, str]]:
 
 
 def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
-    from urdfkit.lint.facts.control.yaml_tree import number_of
     from urdfkit.lint.facts.moveit.settings import LIMIT_KEYS
 
     settings, joint = entry.settings, entry.name.text
@@ -206,7 +204,6 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
 
 def _controller(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     from urdfkit.lint.facts.moveit.settings import CONTROLLER_KEYS, CONTROLLER_TYPES, OTHER_CONTROLLER_TYPES
-    from urdfkit.lint.fix_builders import nearest
 
     yield from _misspelt(entry, CONTROLLER_KEYS)
     kind = entry.settings.find("type")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _TYPES = ("fixed", "floating", "planar")
@@ -43,7 +44,6 @@ class SrdfElementUnknown(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each element or attribute that srdfdom does not read."""
         from urdfkit.lint.facts.moveit.srdf import ELEMENTS, OPTIONAL, elements, semantics_of, severity_for
-        from urdfkit.lint.fix_builders import nearest
 
         for root in semantics_of(model):
             severity, weaker = (severity_for(root, model, each) for each in (self.severity, "warning"))
@@ -82,7 +82,6 @@ class SrdfElementUnknown(RobotRule):
         """Yield a finding for a disabled pair with a misspelt or wrong reason."""
         from urdfkit.lint.facts.moveit.srdf import near_links
         from urdfkit.lint.facts.root_cause import parent_at
-        from urdfkit.lint.fix_builders import nearest
 
         reason = pair.get("reason") or ""
         one, other = pair.get("link1") or "", pair.get("link2") or ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.moveit.srdf import groups, joints_of, path_between
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -44,7 +45,7 @@ class SrdfGroupInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.moveit.group_joints import repeated_groups
-        from urdfkit.lint.facts.moveit.srdf import groups, joints_of, path_between, semantics_of, severity_for
+        from urdfkit.lint.facts.moveit.srdf import semantics_of, severity_for
 
         if model.is_incomplete:
             return
@@ -132,7 +133,6 @@ class SrdfGroupInconsistent(RobotRule):
     def _carried(self, effector: Element, root: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for a parent link that moving joints separate from the group of an end effector."""
         from urdfkit.description.urdf.attached_bodies import AttachedBodies
-        from urdfkit.lint.facts.moveit.srdf import joints_of
         from urdfkit.lint.facts.root_cause import parent_at
 
         robot, group, parent = model.robot, effector.get("group") or "", effector.get("parent_link") or ""
@@ -181,7 +181,6 @@ class SrdfGroupInconsistent(RobotRule):
 
     def _not_passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding at a passive joint whose counterpart on the other side is in no group and not passive."""
-        from urdfkit.lint.facts.moveit.srdf import groups, joints_of
         from urdfkit.lint.facts.twins import mirrored
 
         passive = {element.get("name") or "": element for element in root.find_all("passive_joint")}
@@ -196,8 +195,6 @@ class SrdfGroupInconsistent(RobotRule):
                     yield self.at(model, element, message, attribute="name", joint=other, help=help, severity=severity)
 
     def _chain(self, chain: Element, model: Model, severity: Severity | None) -> Findings:
-        from urdfkit.lint.facts.moveit.srdf import path_between
-
         robot = model.robot
         base, tip = chain.get("base_link") or "", chain.get("tip_link") or ""
         if base not in robot.link_by_name or tip not in robot.link_by_name:

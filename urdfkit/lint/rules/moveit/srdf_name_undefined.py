@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.lint.facts.moveit.srdf import severity_for
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -46,7 +47,7 @@ class SrdfNameUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""
         from urdfkit.lint.facts.moveit.group_joints import group_of_states
-        from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, severity_for, virtual_joints
+        from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, virtual_joints
         from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import meant
 
@@ -89,8 +90,6 @@ class SrdfNameUndefined(RobotRule):
                 yield from (finding,) if kind == "group" else unless_masked(model, name, suggestion, finding)
 
     def _undefined(self, reference: NameUse, root: Element, model: Model, hint: str, count: int) -> Finding:
-        from urdfkit.lint.facts.moveit.srdf import severity_for
-
         kind, name, tag = reference.kind, reference.name, reference.element.tag
         owner = f"robot `{model.robot.name}`" if kind != "group" else "this SRDF"
         others = f" (used {count} times)" if count > 1 else ""

@@ -9,8 +9,19 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
-from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
+from urdfkit.lint.facts.control.ros_gz_bridges import (
+    DIRECTIONS,
+    KEYS,
+    REQUIRED,
+    Bridged,
+    in_launch,
+    in_yaml,
+    malformed_in_launch,
+    pairs,
+)
+from urdfkit.lint.facts.gazebo.sensor_topics import published
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _PUBLISHED = frozenset(
@@ -64,9 +75,7 @@ class BridgeMisspelt(RobotRule):
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
-        from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, REQUIRED, in_launch, in_yaml, malformed_in_launch
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.fix_builders import nearest
 
         bridges: list[tuple[Source, Bridged]] = []
         for source in sources:
@@ -115,7 +124,6 @@ class BridgeMisspelt(RobotRule):
 
     def _worlds(self, model: Model) -> Findings:
         from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_worlds
-        from urdfkit.lint.fix_builders import nearest
 
         for source, start, world, worlds in topics_of_other_worlds(model):
             near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
@@ -129,9 +137,6 @@ class BridgeMisspelt(RobotRule):
 
 def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
     """Return an invalid type with its message; None if both types are valid."""
-    from urdfkit.lint.facts.control.ros_gz_bridges import pairs
-    from urdfkit.lint.fix_builders import nearest
-
     compatible_types = pairs()
     gazebo_types = {name for names in compatible_types.values() for name in names}
     ros_type = bridge.ros.name if bridge.ros is not None else ""
@@ -174,9 +179,6 @@ def _former_type(bridge: Bridged, model: Model) -> tuple[Named, str] | None:
 
 def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
     """Return an unknown direction with its message; None if it is valid."""
-    from urdfkit.lint.facts.control.ros_gz_bridges import DIRECTIONS
-    from urdfkit.lint.fix_builders import nearest
-
     if bridge.direction is None or bridge.direction.name in DIRECTIONS:
         return None
     suggestion = nearest(bridge.direction.name, DIRECTIONS, cutoff=0.7)
@@ -188,10 +190,8 @@ def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
 def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield misspelt topics and wrong directions with their messages."""
     from urdfkit.lint.facts.gazebo.plugins import references
-    from urdfkit.lint.facts.gazebo.sensor_topics import published
     from urdfkit.lint.facts.topics.misspelt import COMMON
     from urdfkit.lint.facts.topics.words import Words
-    from urdfkit.lint.fix_builders import nearest
 
     words = Words(model)
     commands: set[str] = set()
@@ -261,7 +261,6 @@ def _misnamed_sensor(source: Source, reference: Named, meant: str, model: Model)
     A slip in the bridge would make its names differ.
     """
     from urdfkit.lint.facts.control.yaml_tree import documents, yamls
-    from urdfkit.lint.facts.gazebo.sensor_topics import published
     from urdfkit.lint.facts.ros_packages import is_slip
 
     entries = [item for root in documents(source) for item in root.items] if source in yamls(model) else []

@@ -5,11 +5,13 @@ from itertools import pairwise
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.packaging.build_files import BuildFiles
-from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
-from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
+from urdfkit.lint.facts.packaging.build_files import BuildFiles, build_files, installed_folders
+from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, commands, misspelt_word
+from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect, cmake_defects, misplaced, unbalanced
 from urdfkit.lint.finding import Finding, Severity
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _COMMANDS = (
@@ -65,9 +67,6 @@ class BuildFileInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
-        from urdfkit.lint.facts.packaging.build_files import build_files
-        from urdfkit.lint.facts.packaging.cmake_commands import commands
-        from urdfkit.lint.facts.packaging.cmake_defects import cmake_defects, misplaced, unbalanced
         from urdfkit.lint.facts.packaging.setup_defects import setup_defects
 
         used = _used_paths(model)
@@ -95,9 +94,7 @@ class BuildFileInconsistent(RobotRule):
                 yield from self._programs(model, files)
 
     def _cmake(self, files: BuildFiles, source: Source, every: list[CMakeCommand]) -> Findings:
-        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.lint.facts.ros_packages import misspelling_of
-        from urdfkit.lint.fix_builders import nearest
         from urdfkit.lint.model.masked_names import is_typo
 
         defined = set(re.findall(r"(?i)\b(?:function|macro)\s*\(\s*(\w+)", source.text))
@@ -138,9 +135,6 @@ class BuildFileInconsistent(RobotRule):
 
     def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
-        from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, misspelt_word
-        from urdfkit.lint.fix_builders import nearest
-
         if not command.words or command.words[0][0] not in ("DIRECTORY", "FILES", "PROGRAMS"):
             return
         misspelt = misspelt_word(command)
@@ -155,8 +149,6 @@ class BuildFileInconsistent(RobotRule):
             yield from self._existing(files, source, word, start)
 
     def _existing(self, files: BuildFiles, source: Source, word: str, start: int) -> Findings:
-        from urdfkit.description.packages.similar_names import near_path
-
         if "$" not in word and not files.has(word):
             hint = near_path(files.folder / word)
             yield self._at(source, start, word, f"`{word}` does not exist in this package" + hint, kind="missing")
@@ -183,9 +175,6 @@ class BuildFileInconsistent(RobotRule):
 
     def _folders(self, files: BuildFiles, used: dict[str, str]) -> Findings:
         """Yield a finding for each folder that launch files use and that is not installed."""
-        from urdfkit.lint.facts.packaging.build_files import installed_folders
-        from urdfkit.lint.fix_builders import nearest
-
         installed = installed_folders(files)
         source = files.cmake or files.setup
         if installed is None or source is None:
@@ -205,7 +194,6 @@ class BuildFileInconsistent(RobotRule):
     def _programs(self, model: Model, files: BuildFiles) -> Findings:
         """Yield a finding for each script that launch files start and that CMakeLists.txt does not install."""
         from urdfkit.lint.facts.control.launched_nodes import launches, started
-        from urdfkit.lint.facts.packaging.cmake_commands import commands
 
         source = files.cmake
         if source is None or re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|\binstall_\w+\(", source.text):

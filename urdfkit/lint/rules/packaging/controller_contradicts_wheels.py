@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings
-from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.facts.control.yaml_tree import Node, span_of
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -156,8 +156,6 @@ class ControllerContradictsWheels(RobotRule):
         names: tuple[str, ...] = (),
         other: Span | None = None,
     ) -> Finding:
-        from urdfkit.lint.facts.control.yaml_tree import span_of
-
         span = span_of(source, node)
         # Several files that contradict one property are different causes.
         cause = f"{message} in {source.file}" if other is not None else ""

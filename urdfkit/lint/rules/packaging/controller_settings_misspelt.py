@@ -3,7 +3,10 @@
 import re
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.control.controller_types import TYPES, meant_type
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import misspelt
+from urdfkit.lint.facts.control.yaml_tree import span_of
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -56,7 +59,6 @@ class ControllerSettingsMisspelt(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
-        from urdfkit.description.control.controller_types import meant_type
         from urdfkit.lint.facts.control.controller_joints import typed
         from urdfkit.lint.facts.control.controller_settings import misspelt_sections
         from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
@@ -92,8 +94,6 @@ class ControllerSettingsMisspelt(RobotRule):
     def _loaded(self, model: Model) -> Findings:
         """Yield a finding for each loaded controller of another package, for urdfkit, and for unknown parameters."""
         from urdfkit.description.control.controller_parameters import unknown_parameters
-        from urdfkit.description.control.controller_types import TYPES, meant_type
-        from urdfkit.lint.facts.control.controller_settings import misspelt
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
         from urdfkit.lint.facts.control.yaml_tree import yamls
 
@@ -114,9 +114,8 @@ class ControllerSettingsMisspelt(RobotRule):
 
     def _sections(self, source: Source) -> Findings:
         """Yield a finding for each type without package, and each ROS 2 section without ``ros__parameters``."""
-        from urdfkit.description.control.controller_types import TYPES
         from urdfkit.lint.facts.control.controller_settings import sections_without_parameters
-        from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of
+        from urdfkit.lint.facts.control.yaml_tree import documents, groups
 
         for root in documents(source):
             for _, group in groups(root):
@@ -134,9 +133,8 @@ class ControllerSettingsMisspelt(RobotRule):
             yield self.at_span(span_of(source, key), message, severity="error", help=help)
 
     def _parameters(self, source: Source, model: Model) -> Findings:
-        from urdfkit.lint.facts.control.controller_settings import INTERFACES, misspelt, misspelt_names
+        from urdfkit.lint.facts.control.controller_settings import INTERFACES, misspelt_names
         from urdfkit.lint.facts.control.ros2_controllers import offered
-        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         for node, suggestion, description in misspelt_names(source):
             # hardware-interface-lacking compares interfaces with the hardware.

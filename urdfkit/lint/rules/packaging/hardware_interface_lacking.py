@@ -5,8 +5,17 @@ from __future__ import annotations
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source, Span
-from urdfkit.lint.facts.control.ros2_controllers import DeclaredController, Wanted
+from urdfkit.lint.facts.control.ros2_controllers import (
+    PARAMETERS,
+    DeclaredController,
+    Wanted,
+    declared,
+    offered,
+    wanted,
+)
+from urdfkit.lint.facts.control.yaml_tree import span_of
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _BROADCASTERS = (
@@ -65,7 +74,6 @@ class HardwareInterfaceLacking(RobotRule):
         if not model.robot.ros2_control:
             return
         from urdfkit.lint.facts.control.hardware_interfaces import meant_joints
-        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered, wanted
         from urdfkit.lint.facts.control.yaml_tree import yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text]
@@ -116,9 +124,6 @@ class HardwareInterfaceLacking(RobotRule):
     def _unknown_sensor(
         self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]]
     ) -> Findings:
-        from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.fix_builders import nearest
-
         sensor = controller.settings.find("sensor_name") if controller.settings is not None else None
         if sensor is None or not sensor.text or controller.kind.text not in _BROADCASTERS or sensor.text in hardware:
             return
@@ -139,9 +144,6 @@ class HardwareInterfaceLacking(RobotRule):
     ) -> Findings:
         from urdfkit.lint.facts.control.controller_settings import INTERFACES
         from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
-        from urdfkit.lint.facts.control.ros2_controllers import wanted
-        from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.fix_builders import nearest
 
         lacking: dict[tuple[object, ...], list[Wanted]] = {}
         reported: dict[tuple[int, int], tuple[object, ...]] = {}
@@ -196,8 +198,6 @@ def _entry_before(
 
     None unless most joints of the controller have entries.
     """
-    from urdfkit.lint.facts.control.ros2_controllers import wanted
-
     names = list(dict.fromkeys(each.joint for each in wanted(controller) if each.is_command))
     written = [name for name in names if name in hardware]
     if joint not in names or 2 * len(written) <= len(names):

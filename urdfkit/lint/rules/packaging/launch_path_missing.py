@@ -5,7 +5,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from urdfkit.description.xml.source import Span
-from urdfkit.lint.facts.control.launch_package_paths import PackagePath
+from urdfkit.lint.facts.control.launch_package_paths import PackagePath, package_paths
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -49,7 +49,6 @@ class LaunchPathMissing(RobotRule):
         """Yield a finding for each path that does not exist in its package."""
         from urdfkit.description.packages.related_files import LAUNCH, neighbours
         from urdfkit.description.packages.similar_names import near_path
-        from urdfkit.lint.facts.control.launch_package_paths import package_paths
 
         if model.package is None:
             return

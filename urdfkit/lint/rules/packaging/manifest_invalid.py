@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.build_files import BuildFiles, build_files
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -60,7 +60,6 @@ class ManifestInvalid(RobotRule):
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.lint.facts.dependency_cycles import cycle_over
         from urdfkit.lint.facts.package_format import format_defects
-        from urdfkit.lint.facts.packaging.build_files import build_files
         from urdfkit.lint.facts.ros_packages import misspelling_of
 
         folders = neighbours(model.package) if model.package is not None else {}

@@ -5,8 +5,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.control.controller_types import TYPES
 from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, neighbours, package_of
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import yamls
+from urdfkit.lint.facts.ros_packages import is_in_metapackage, misspelling_of, names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -110,8 +113,6 @@ class PackageXmlDependency(RobotRule):
         near = neighbours(package)
         own = name_in(manifest, package.name)
         declared = {own, *_dependencies(manifest, near)}
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage
-
         unknown = {fault.name for fault in model.expanded.faults if fault.kind == "package-not-found"}
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
@@ -145,7 +146,6 @@ class PackageXmlDependency(RobotRule):
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
         from urdfkit.lint.facts.control.launch_package_paths import packages_imported, packages_used
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
         files = {Path(file).absolute(): source.text for file, source in model.related_files.items()}
         manifests = {file: text for file, text in files.items() if file.name == "package.xml"}
@@ -174,7 +174,6 @@ class PackageXmlDependency(RobotRule):
         """Yield a finding for each package that Python code imports or CMake finds without a dependency."""
         from urdfkit.lint.facts.packaging.build_files import build_files
         from urdfkit.lint.facts.packaging.code_packages import packages_found, packages_in_code
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
         for files in build_files(model):
             near, manifest = neighbours(files.folder), model.manifest(files.folder)
@@ -191,10 +190,8 @@ class PackageXmlDependency(RobotRule):
 
     def _check_controllers(self, model: Model) -> Findings:
         """Yield a finding for each package of a controller in YAML that none of the related packages depends on."""
-        from urdfkit.description.control.controller_types import TYPES
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
-        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         files = list(yamls(model))
         needed = _needed(model)
@@ -223,9 +220,6 @@ class PackageXmlDependency(RobotRule):
 
     def _check_navigation_plugins(self, model: Model) -> Findings:
         """Yield a finding for each package of Nav2 plugins on which none depends, unlike on those of the others."""
-        from urdfkit.lint.facts.control.yaml_tree import yamls
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
-
         needed = _needed(model)
         for source in yamls(model):
             uses: dict[str, re.Match[str]] = {}
@@ -260,7 +254,6 @@ class PackageXmlDependency(RobotRule):
     def _check_moveit(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package of plugins or descriptions that a package with MoveIt's files needs."""
         from urdfkit.lint.facts.plugin_packages import moveit_uses
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
         for source in model.related_files.values():
             folder = package_of(Path(source.file))
@@ -296,9 +289,7 @@ class PackageXmlDependency(RobotRule):
 
     def _of_ros1(self, source: Source, package: Path, needed: set[str], model: Model) -> Findings:
         """Yield a finding for each package of a ROS 1 controller that none of the related packages depends on."""
-        from urdfkit.description.control.controller_types import TYPES
         from urdfkit.lint.facts.control.controller_joints import typed
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
 
         if "catkin" not in model.manifest(package) or (package / ".setup_assistant").is_file():
             return
@@ -316,7 +307,6 @@ class PackageXmlDependency(RobotRule):
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.launch.ros_version import reads_version
-        from urdfkit.lint.facts.ros_packages import misspelling_of
 
         span = source.span(start, end)
         version = reads_version(source) if source.file.endswith(LAUNCH) else 0
@@ -346,7 +336,5 @@ def _disabled(manifest: str) -> set[str]:
 
 def _dependencies(manifest: str, near: Iterable[str]) -> set[str]:
     """Return the dependencies, and the packages that misspelt ones stand for; manifest-invalid reports these."""
-    from urdfkit.lint.facts.ros_packages import misspelling_of
-
     found, version = dependencies_in(manifest), 2 if ">ament" in manifest and ">catkin" not in manifest else 0
     return found | {meant for name in found if (meant := misspelling_of(name, near, version)) is not None}

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.facts.control.yaml_tree import Node, nodes
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, span_of, walk, yamls
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MISSPELT = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|als|alsee|lse|ase)"
@@ -63,7 +63,6 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.description.control.parameter_defects import invalid_parameters
         from urdfkit.lint.facts.control.controller_settings import misspelt_sections, sections_without_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
-        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         unread = {
             source.file
@@ -91,7 +90,6 @@ class ParameterValueInvalid(RobotRule):
             value_defects,
         )
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.facts.gazebo.update_rates import rates_above_physics
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
         from urdfkit.lint.facts.navigation.collision_monitors import monitor_defects, mux_defects
@@ -202,6 +200,4 @@ def _last_row(value: Node) -> Node | None:
 
 
 def _has_parameters(node: Node) -> bool:
-    from urdfkit.lint.facts.control.yaml_tree import walk
-
     return any(inner.find("ros__parameters") is not None for inner in walk(node))

@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
-from urdfkit.lint.facts.control.launched_nodes import Started
+from urdfkit.lint.facts.control.launched_nodes import Started, launches, started
+from urdfkit.lint.facts.launch.receivers import included_files
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _CREATE = "world file param string topic name allow_renaming x y z R P Y"
@@ -83,7 +85,6 @@ class SpawnArgumentMisspelt(RobotRule):
         """Yield a finding for each invalid argument."""
         from urdfkit.lint.facts.connections.controller_managers import misdirected_spawners
         from urdfkit.lint.facts.connections.unloaded_plugins import left_out_plugins
-        from urdfkit.lint.facts.control.launched_nodes import launches, started
         from urdfkit.lint.facts.gazebo.spawned_models import (
             names_as_files,
             spawned_in_the_ground,
@@ -138,7 +139,6 @@ class SpawnArgumentMisspelt(RobotRule):
 def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Iterator[Named]:
     """Yield the controller manager or description in a namespace, if the file starts a robot without a namespace."""
     from urdfkit.lint.facts.launch.actions import launch_files
-    from urdfkit.lint.facts.launch.receivers import included_files
 
     if not any(word is not None and "/" in word.name for word in node.arguments):
         return
@@ -164,8 +164,6 @@ def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Itera
 
 def _unknown_options(node: Started, version: int) -> Iterator[tuple[int, str, str]]:
     """Yield the offset, text and message of each misspelt option of the spawner of controllers."""
-    from urdfkit.lint.fix_builders import nearest
-
     for word in node.arguments:
         option = re.fullmatch(r"--?([A-Za-z][\w-]{3,})", word.name.partition("=")[0]) if word is not None else None
         if word is None or option is None or option[1] in _SPAWNERS[version]:
@@ -189,7 +187,6 @@ def _is_ignored(node: Started, option: str) -> bool:
 def _invalid_arguments(node: Started, source: Source, model: Model) -> Iterator[tuple[int, str, str]]:
     """Yield the offset, text and message of each invalid argument."""
     from urdfkit.lint.facts.ros_packages import is_slip
-    from urdfkit.lint.fix_builders import nearest
 
     options, previous = _OPTIONS[node.program], ""
     for word in node.arguments:
@@ -219,7 +216,6 @@ def _invalid_arguments(node: Started, source: Source, model: Model) -> Iterator[
 def _is_unpublished(topic: str, source: Source, model: Model) -> bool:
     """Return whether the launch file starts a publisher of the description, and no other file names the topic."""
     from urdfkit.lint.facts.launch.actions import actions_of
-    from urdfkit.lint.facts.launch.receivers import included_files
 
     reached = list(included_files(actions_of(source), model))
     texts = [each.source.text for each in reached if each is not None]
@@ -295,8 +291,6 @@ def _names(node: Started, options: set[str]) -> bool:
 
 
 def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
-    from urdfkit.lint.fix_builders import nearest
-
     return (
         nearest(option, [candidate for candidate in options if len(candidate) > 1], cutoff=0.7)
         if len(option) > 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import span_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -51,7 +52,6 @@ class SpawnedControllerUndefined(RobotRule):
         from urdfkit.lint.facts.control.launched_nodes import started
         from urdfkit.lint.facts.control.spawned_namespaces import plugins_in_other_namespace
         from urdfkit.lint.facts.control.spawned_together import SPAWNERS, left_out, spawned, untyped
-        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         launches = [file for file in model.related_files.values() if re.search(r"spawner", file.text)]
         parameter_files = [file for file in model.related_files.values() if file.file.endswith((".yaml", ".yml"))]
@@ -87,7 +87,6 @@ class SpawnedControllerUndefined(RobotRule):
 
     def _namespaces(self, source: Source, model: Model) -> Findings:
         from urdfkit.lint.facts.control.spawned_namespaces import misplaced_controllers
-        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         for one in misplaced_controllers(source, model):
             found, expected = (f"namespace `{name}`" if name else "no namespace" for name in (one.found, one.expected))

@@ -3,7 +3,7 @@
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import Broken, Node, syntax_error
+from urdfkit.lint.facts.control.yaml_tree import Broken, Node, documents, span_of, syntax_error, walk, yamls
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -47,8 +47,6 @@ class YamlNotWellFormed(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each malformed file, and for each string that should be a parameter."""
-        from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
-
         for source in yamls(model):
             if re.search(_TEMPLATE, source.text):
                 continue

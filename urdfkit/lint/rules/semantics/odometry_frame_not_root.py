@@ -1,5 +1,6 @@
 """S913 odometry-frame-not-root."""
 
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _FRAMES = (
@@ -48,7 +49,7 @@ class OdometryFrameNotRoot(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each drive with another base frame."""
         from urdfkit.description.plugins import values
-        from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, is_foreign, plugins, spec_of
+        from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, is_foreign, spec_of
 
         yield from self._same_frames(model)
         roots = model.robot.roots()
@@ -77,8 +78,6 @@ class OdometryFrameNotRoot(RobotRule):
 
     def _same_frames(self, model: Model) -> Findings:
         """Yield a finding for each plugin whose odometry frame is its base frame."""
-        from urdfkit.lint.facts.gazebo.plugins import plugins
-
         for plugin, _, _ in plugins(model.robot):
             for odometry, base in _FRAMES:
                 first, second = plugin.element.find(odometry), plugin.element.find(base)

@@ -181,6 +181,4 @@ class SteeringController(WheeledBase):
 
 def _named(read: Settings, path: str, default: str) -> Settings:
     """Return the parameter with the name of a joint, or its default."""
-    from urdfkit.description.control import Settings
-
     return read.find(path) or Settings(path, read.position, default)
