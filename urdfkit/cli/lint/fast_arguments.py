@@ -13,18 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 _SWITCHES = (
-    "fix",
-    "unsafe_fixes",
-    "fix_generated",
-    "diff",
-    "statistics",
-    "watch",
-    "no_config",
-    "no_cache",
-    "confined",
-    "no_launch_arguments",
-    "quiet",
-    "verbose",
+    *("fix", "unsafe_fixes", "fix_generated", "diff", "statistics", "watch", "no_config", "no_cache", "confined"),
+    *("no_launch_arguments", "quiet", "verbose"),
 )
 _NAMES = {"-q": "quiet", "-v": "verbose", **{f"--{name.replace('_', '-')}": name for name in _SWITCHES}}
 

@@ -33,20 +33,10 @@ STANDS_IN = {
 """Name of a model in Gazebo's collection → bundled model of similar size and purpose."""
 
 ALIKE = frozenset(
-    {
-        "bookshelf",
-        "brick_box_3x1x3",
-        "cafe_table",
-        "cinder_block",
-        "coke_can",
-        "construction_barrel",
-        "construction_cone",
-        "fire_hydrant",
-        "jersey_barrier",
-        "lamp_post",
-        "mailbox",
-        "table",
-    }
+    (
+        *("bookshelf", "brick_box_3x1x3", "cafe_table", "cinder_block", "coke_can", "construction_barrel"),
+        *("construction_cone", "fire_hydrant", "jersey_barrier", "lamp_post", "mailbox", "table"),
+    )
 )
 """Bundled models named after a model in Gazebo's collection, of similar size and purpose but different shape."""
 

@@ -30,15 +30,8 @@ if TYPE_CHECKING:
     from urdfkit.lint.project.options import Options
 
 _VARIABLES = (
-    "ROS_PACKAGE_PATH",
-    "AMENT_PREFIX_PATH",
-    "CMAKE_PREFIX_PATH",
-    "COLCON_PREFIX_PATH",
-    "GZ_SIM_RESOURCE_PATH",
-    "IGN_GAZEBO_RESOURCE_PATH",
-    "GAZEBO_MODEL_PATH",
-    "SDF_PATH",
-    "ROS_DISTRO",
+    *("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH", "GZ_SIM_RESOURCE_PATH"),
+    *("IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH", "ROS_DISTRO"),
 )
 _MANIFESTS = ("package.xml", "CMakeLists.txt", "setup.py")
 _UNTRACKED = ".gltf"

@@ -14,43 +14,14 @@ if TYPE_CHECKING:
     """Code of a rule, and `Finding.kind`; an empty kind matches all findings of the rule."""
 
 _PLACES = (
-    "G619",
-    "J405",
-    "J407",
-    "J411",
-    "J421",
-    "J427",
-    "S908",
-    "S909",
-    "S910",
-    "S917",
-    "S919",
-    "T204",
-    "T206",
-    "X128",
+    *("G619", "J405", "J407", "J411", "J421", "J427", "S908", "S909", "S910", "S917", "S919", "T204"),
+    *("T206", "X128"),
 )
 """Codes of findings on places, sizes and directions, which explain why links are in each other."""
 
 _ON_PLACES = (
-    "I519",
-    "J421",
-    "J424",
-    "J427",
-    "J428",
-    "J429",
-    "K970",
-    "S901",
-    "S904",
-    "S907",
-    "S908",
-    "S909",
-    "S910",
-    "S911",
-    "S915",
-    "S918",
-    "S919",
-    "S920",
-    "S921",
+    *("I519", "J421", "J424", "J427", "J428", "J429", "K970", "S901", "S904", "S907", "S908", "S909", "S910"),
+    *("S911", "S915", "S918", "S919", "S920", "S921"),
 )
 """Codes of findings on places of links, which a robot with a broken tree or unknown values does not have."""
 

@@ -33,15 +33,8 @@ if TYPE_CHECKING:
 
 _DROPPING = frozenset(
     (
-        "xml",
-        "undefined-macro",
-        "undefined-block",
-        "include-not-found",
-        "package-not-found",
-        "macro-arguments",
-        "recursion",
-        "too-many",
-        "conditional",
+        *("xml", "undefined-macro", "undefined-block", "include-not-found", "package-not-found", "macro-arguments"),
+        *("recursion", "too-many", "conditional"),
     )
 )
 """Fault kinds after which elements are missing or superfluous."""

@@ -5,21 +5,12 @@ import re
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
-_READ = {
-    ".cmake",
-    ".dsv",
-    ".launch",
-    ".py",
-    ".rviz",
-    ".sdf",
-    ".txt",
-    ".urdf",
-    ".world",
-    ".xacro",
-    ".xml",
-    ".yaml",
-    ".yml",
-}
+_READ = frozenset(
+    (
+        *(".cmake", ".dsv", ".launch", ".py", ".rviz", ".sdf", ".txt", ".urdf", ".world", ".xacro", ".xml"),
+        *(".yaml", ".yml"),
+    )
+)
 """Suffixes of files that may refer to other files of a package."""
 _LARGEST = 1_000_000
 """Size limit [bytes]; larger files are data."""

@@ -6,19 +6,8 @@ ROS_1 = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic")
 """ROS 1 distributions, oldest first."""
 
 ROS_2 = (
-    "ardent",
-    "bouncy",
-    "crystal",
-    "dashing",
-    "eloquent",
-    "foxy",
-    "galactic",
-    "humble",
-    "iron",
-    "jazzy",
-    "kilted",
-    "lyrical",
-    "rolling",
+    *("ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "humble", "iron", "jazzy"),
+    *("kilted", "lyrical", "rolling"),
 )
 """ROS 2 distributions, oldest first."""
 

@@ -20,17 +20,12 @@ _REFUSED = {
 }
 LARGEST = 1e6
 """Largest accepted length [m]; double precision resolves 0.1 nm at this size."""
-_READ = {
-    "auto_inertia_params",
-    "density",
-    "frame",
-    "geometry",
-    "laser_retro",
-    "material",
-    "pose",
-    "surface",
-    "transparency",
-}
+_READ = frozenset(
+    (
+        *("auto_inertia_params", "density", "frame", "geometry", "laser_retro", "material", "pose"),
+        *("surface", "transparency"),
+    )
+)
 
 
 def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | None:

@@ -11,17 +11,9 @@ PACKAGE = "hardware_interface"
 """Package prefix of the interface names, before the slash."""
 
 INTERFACES = (
-    "EffortJointInterface",
-    "VelocityJointInterface",
-    "PositionJointInterface",
-    "PosVelJointInterface",
-    "PosVelAccJointInterface",
-    "JointStateInterface",
-    "JointCommandInterface",
-    "ActuatorStateInterface",
-    "ForceTorqueSensorInterface",
-    "ImuSensorInterface",
-    "JointModeInterface",
+    *("EffortJointInterface", "VelocityJointInterface", "PositionJointInterface", "PosVelJointInterface"),
+    *("PosVelAccJointInterface", "JointStateInterface", "JointCommandInterface", "ActuatorStateInterface"),
+    *("ForceTorqueSensorInterface", "ImuSensorInterface", "JointModeInterface"),
 )
 """Interfaces of the package hardware_interface in ROS Noetic."""
 

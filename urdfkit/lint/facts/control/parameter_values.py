@@ -35,14 +35,8 @@ _NOT_NEGATIVE = frozenset(
 _OF_ANY_SIGN = frozenset(("min_velocity", "min_acceleration", "min_jerk"))
 _LISTS_TOO = frozenset(
     (
-        "min_velocity",
-        "min_acceleration",
-        "min_jerk",
-        "max_velocity",
-        "max_acceleration",
-        "max_jerk",
-        "goal",
-        "trajectory",
+        *("min_velocity", "min_acceleration", "min_jerk", "max_velocity", "max_acceleration", "max_jerk"),
+        *("goal", "trajectory"),
     )
 )
 """Numbers in controllers that are lists in other nodes."""

@@ -5,32 +5,10 @@ from urdfkit.lint.fix_builders import nearest, new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 KEYS = (
-    "material",
-    "turnGravityOff",
-    "dampingFactor",
-    "maxVel",
-    "minDepth",
-    "mu1",
-    "mu2",
-    "fdir1",
-    "kp",
-    "kd",
-    "selfCollide",
-    "maxContacts",
-    "laserRetro",
-    "stopCfm",
-    "stopErp",
-    "stopKp",
-    "stopKd",
-    "initial_joint_position",
-    "fudgeFactor",
-    "provideFeedback",
-    "implicitSpringDamper",
-    "cfmDamping",
-    "springStiffness",
-    "springReference",
-    "preserveFixedJoint",
-    "disableFixedJointLumping",
+    *("material", "turnGravityOff", "dampingFactor", "maxVel", "minDepth", "mu1", "mu2", "fdir1", "kp", "kd"),
+    *("selfCollide", "maxContacts", "laserRetro", "stopCfm", "stopErp", "stopKp", "stopKd"),
+    *("initial_joint_position", "fudgeFactor", "provideFeedback", "implicitSpringDamper", "cfmDamping"),
+    *("springStiffness", "springReference", "preserveFixedJoint", "disableFixedJointLumping"),
 )
 """The elements that parser_urdf.cc of sdformat (12.3) reads in ``<gazebo reference>``."""
 
@@ -40,32 +18,10 @@ _OF_JOINTS = ("preserveFixedJoint", "disableFixedJointLumping")
 _ALIASES = {"mu": "mu1", "mul": "mu1"}
 _SDF = frozenset(
     (
-        "sensor",
-        "plugin",
-        "visual",
-        "collision",
-        "projector",
-        "gripper",
-        "gravity",
-        "self_collide",
-        "kinematic",
-        "velocity_decay",
-        "enable_wind",
-        "must_be_base_link",
-        "audio_sink",
-        "audio_source",
-        "battery",
-        "light",
-        "particle_emitter",
-        "inertial",
-        "pose",
-        "static",
-        "physics",
-        "axis",
-        "max_contacts",
-        "laser_retro",
-        "surface",
-        "frame",
+        *("sensor", "plugin", "visual", "collision", "projector", "gripper", "gravity", "self_collide", "kinematic"),
+        *("velocity_decay", "enable_wind", "must_be_base_link", "audio_sink", "audio_source", "battery", "light"),
+        *("particle_emitter", "inertial", "pose", "static", "physics", "axis", "max_contacts", "laser_retro"),
+        *("surface", "frame"),
     )
 )
 
