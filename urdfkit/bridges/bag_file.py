@@ -18,7 +18,7 @@ NANOSECONDS = 1e9
 _MODULE = "rosbags.usertypes"
 REASONS = {
     "File end magic is invalid.": "its end is missing, as after a crash or an incomplete download; "
-    "`mcap recover FILE -o NEW` recovers the rest",
+    "`mcap recover FILE -o NEW` recovers the rest"
 }
 """Reasons of errors of rosbags, in words of users."""
 

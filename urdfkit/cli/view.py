@@ -36,9 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--html", metavar="FILE", help="write a self-contained page with sliders, which needs no server, and exit"
     )
     parser.add_argument(
-        "--live",
-        metavar="SOURCE",
-        help="show and drive a real robot: through ros1, ros2 or rosbridge://HOST:PORT",
+        "--live", metavar="SOURCE", help="show and drive a real robot: through ros1, ros2 or rosbridge://HOST:PORT"
     )
     parser.add_argument("--fixed-frame", metavar="FRAME", help="with --live: frame in which all data is shown")
     add_picture_options(parser)

@@ -198,10 +198,7 @@ def _partial(model: ModelArgument, packages: Packages, texts: Mapping[str, str])
 
 
 def expand(
-    robot: Robot | str | Path,
-    *,
-    arguments: Mapping[str, str] | None = None,
-    package_path: Iterable[str | Path] = (),
+    robot: Robot | str | Path, *, arguments: Mapping[str, str] | None = None, package_path: Iterable[str | Path] = ()
 ) -> str:
     """Expand xacro to URDF.
 

@@ -11,11 +11,7 @@ Row = tuple[str, str, str]
 SOURCE: tuple[Row, ...] = (
     ("", "document.unbound_namespace_prefix", "UnboundNamespacePrefix"),
     ("xmlns:xacro", "document.wrong_xacro_namespace_uri", "WrongXacroNamespaceUri"),
-    (
-        "<macro <property <include <arg <if <unless <insert_block",
-        "xacro.unprefixed_directive",
-        "UnprefixedDirective",
-    ),
+    ("<macro <property <include <arg <if <unless <insert_block", "xacro.unprefixed_directive", "UnprefixedDirective"),
     ("macro", "xacro.unprefixed_macro_call", "UnprefixedMacroCall"),
     ("rpy property", "xacro.rounded_pi", "RoundedPi"),
     ("load_yaml", "xacro.deprecated_call", "DeprecatedCall"),
@@ -157,11 +153,7 @@ ROBOT: tuple[Row, ...] = (
     ("sensor", "semantics.sensor_view_blocked", "SensorViewBlocked"),
     ("gazebo", "semantics.caster_with_friction", "CasterWithFriction"),
     ("type=fixed", "semantics.tool_frame_inside_body", "ToolFrameInsideBody"),
-    (
-        "type=revolute type=continuous type=prismatic",
-        "semantics.joint_contradicts_name",
-        "JointContradictsName",
-    ),
+    ("type=revolute type=continuous type=prismatic", "semantics.joint_contradicts_name", "JointContradictsName"),
     ("part!", "semantics.twins_turn_differently", "TwinsTurnDifferently"),
     ("collision visual", "semantics.links_overlap", "LinksOverlap"),
     ("type=revolute type=prismatic", "semantics.joint_moves_into_robot", "JointMovesIntoRobot"),

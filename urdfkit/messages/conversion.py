@@ -16,11 +16,7 @@ ZERO: dict[str, Any] = {"string": "", "wstring": "", "bool": False, "float32": 0
 
 LONG = 16_384
 """Bytes of an array that is not copied."""
-AFTER_DATA = {
-    "sensor_msgs/msg/Image": 0,
-    "sensor_msgs/msg/CompressedImage": 0,
-    "sensor_msgs/msg/PointCloud2": 1,
-}
+AFTER_DATA = {"sensor_msgs/msg/Image": 0, "sensor_msgs/msg/CompressedImage": 0, "sensor_msgs/msg/PointCloud2": 1}
 """Type with an array of bytes → number of the bytes after it."""
 
 UNUSED = "structure_needs_at_least_one_member"

@@ -7,18 +7,7 @@ import numpy as np
 
 from urdfkit.defect_message import with_effect
 from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.description.urdf.robot import (
-    Box,
-    Capsule,
-    Collision,
-    Cylinder,
-    Link,
-    Mesh,
-    Problem,
-    Robot,
-    Sphere,
-    Visual,
-)
+from urdfkit.description.urdf.robot import Box, Capsule, Collision, Cylinder, Link, Mesh, Problem, Robot, Sphere, Visual
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import ModelError

@@ -63,11 +63,7 @@ def check(
 
 
 def renderer_of(
-    table: RayTable,
-    lighting: Lighting,
-    renderer: str,
-    note: Callable[[str], None],
-    device: Callable[[], Found] = probe,
+    table: RayTable, lighting: Lighting, renderer: str, note: Callable[[str], None], device: Callable[[], Found] = probe
 ) -> ImageRenderer:
     """Return a renderer for the shapes of a table.
 

@@ -85,12 +85,7 @@ def teleop(
 
 @contextmanager
 def driving(
-    page: Page,
-    robot: Robot,
-    world: World,
-    options: RunOptions,
-    *,
-    note: Callable[[str], None] | None = None,
+    page: Page, robot: Robot, world: World, options: RunOptions, *, note: Callable[[str], None] | None = None
 ) -> Iterator[DriveLoop]:
     """Serve the page of a simulation inside the context; yield its loop, ready to run.
 

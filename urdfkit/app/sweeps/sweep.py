@@ -98,12 +98,7 @@ def sweep(
     robots = {xacro: found(dict(xacro)) for xacro in dict.fromkeys(map(arguments_of, runs))}
     names = dict.fromkeys(str(run.values.get(WORLD, "")) for run in runs)
     scenario = Scenario(
-        robots,
-        {name: _world(name or world) for name in names},
-        RunOptions(**options),
-        duration,
-        until,
-        expressions,
+        robots, {name: _world(name or world) for name in names}, RunOptions(**options), duration, until, expressions
     )
     scenario.prepared(runs[0])  # raises for names that this robot does not have, before workers start
     first = next(iter(robots.values()))

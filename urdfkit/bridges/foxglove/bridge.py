@@ -46,12 +46,7 @@ class FoxgloveServer(WebSocketServer):
         def connect(queue: SendQueue) -> FoxglovePeer:
             self._channels.follow()
             peer = FoxglovePeer(
-                graph,
-                self._channels,
-                queue,
-                lambda uri: read_asset(uri, find_package),
-                report,
-                self._connected.remove,
+                graph, self._channels, queue, lambda uri: read_asset(uri, find_package), report, self._connected.remove
             )
             self._connected.append(peer)
             return peer

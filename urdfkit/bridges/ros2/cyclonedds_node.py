@@ -115,11 +115,7 @@ class CycloneddsNode:
     def _used(self) -> Iterator[tuple[str, str]]:
         """Yield topic and type of each publisher and subscriber."""
         if not self._discovered:
-            from cyclonedds.builtin import (
-                BuiltinDataReader,
-                BuiltinTopicDcpsPublication,
-                BuiltinTopicDcpsSubscription,
-            )
+            from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
 
             kinds = BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
             self._discovered = [BuiltinDataReader(self._participant, kind) for kind in kinds]

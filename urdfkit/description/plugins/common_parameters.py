@@ -2,10 +2,7 @@
 
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
-GAZEBO_ROS_1 = (
-    Parameter("namespace", "robotNamespace"),
-    Parameter("ros_debug_level", "rosDebugLevel"),
-)
+GAZEBO_ROS_1 = (Parameter("namespace", "robotNamespace"), Parameter("ros_debug_level", "rosDebugLevel"))
 """Parameters that ``gazebo_ros_utils`` reads for every ROS 1 plugin."""
 
 GAZEBO_ROS_2 = (Parameter("ros", "ros"),)

@@ -3,12 +3,7 @@
 Placeholders in defaults are replaced per model: ``{world}``, ``{model}`` and ``{joint}`` are names.
 """
 
-from urdfkit.description.plugins.common_parameters import (
-    GAZEBO_ROS_2,
-    gazebo_ros_1,
-    gazebo_ros_2,
-    gz_system,
-)
+from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_2, gazebo_ros_1, gazebo_ros_2, gz_system
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 JOINT_STATE_PUBLISHER_ROS_1 = gazebo_ros_1(

@@ -45,12 +45,7 @@ _AXES = _of(x=_NOISY, y=_NOISY, z=_NOISY)
 _PLANES = _of(horizontal=_NOISY, vertical=_NOISY)
 _CLIP = _of("near far")
 _FAN = _of("samples resolution min_angle max_angle")
-_LIDAR = _of(
-    "visibility_mask",
-    scan=_of(horizontal=_FAN, vertical=_FAN),
-    range=_of("min max resolution"),
-    noise=_NOISE,
-)
+_LIDAR = _of("visibility_mask", scan=_of(horizontal=_FAN, vertical=_FAN), range=_of("min max resolution"), noise=_NOISE)
 _GPS = _of(position_sensing=_PLANES, velocity_sensing=_PLANES)
 _RADIO = _of("essid frequency min_frequency max_frequency gain power sensitivity")
 _LENS = _of(

@@ -42,11 +42,7 @@ def rotate(rotation: Rotation, vector: Vector) -> Vector:
     """Return rotation · vector."""
     x, y, z = vector
     a, b, c = rotation
-    return (
-        a[0] * x + a[1] * y + a[2] * z,
-        b[0] * x + b[1] * y + b[2] * z,
-        c[0] * x + c[1] * y + c[2] * z,
-    )
+    return (a[0] * x + a[1] * y + a[2] * z, b[0] * x + b[1] * y + b[2] * z, c[0] * x + c[1] * y + c[2] * z)
 
 
 def transpose(rotation: Rotation) -> Rotation:

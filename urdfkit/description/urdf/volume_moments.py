@@ -168,11 +168,7 @@ def _spread(shape: Geometry, points: int) -> Iterator[Vector]:
             yield across * cos(angle), across * sin(angle), radius * height
         elif isinstance(shape, Capsule):
             radius = shape.radius
-            point = (
-                2.0 * radius * (s - 0.5),
-                2.0 * radius * (t - 0.5),
-                (shape.length + 2.0 * radius) * (u - 0.5),
-            )
+            point = (2.0 * radius * (s - 0.5), 2.0 * radius * (t - 0.5), (shape.length + 2.0 * radius) * (u - 0.5))
             if _holds(shape, *point):
                 yield point
 

@@ -65,11 +65,7 @@ class CollisionFreeSearch:
         return collisions
 
     def free(
-        self,
-        found: Solution,
-        target: Sequence[float],
-        start: Sequence[float],
-        options: SolverOptions,
+        self, found: Solution, target: Sequence[float], start: Sequence[float], options: SolverOptions
     ) -> Solution:
         """Return a solution without collisions: the given one or another.
 

@@ -167,11 +167,7 @@ class _Trial:
     """
 
     def __init__(
-        self,
-        models: Sequence[Model],
-        expand: Expand,
-        wanted: dict[tuple[str, str], str],
-        written: dict[Span, str],
+        self, models: Sequence[Model], expand: Expand, wanted: dict[tuple[str, str], str], written: dict[Span, str]
     ) -> None:
         self._models, self._expand, self._written = models, expand, written
         self._before = [list(expanded_occurrences(model)) for model in models]

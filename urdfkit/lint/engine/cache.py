@@ -187,13 +187,7 @@ class Cache:
         return status if status else self._digest_of(path)
 
     def _path(self, entry: Entry) -> Path:
-        parts = (
-            str(entry.path.absolute()),
-            *map(str, entry.only),
-            str(entry.is_library),
-            str(Path.cwd()),
-            *self._way,
-        )
+        parts = (str(entry.path.absolute()), *map(str, entry.only), str(entry.is_library), str(Path.cwd()), *self._way)
         name = _digest("\0".join(parts).encode("utf-8", "surrogateescape"))
         return folder() / name[:2] / f"{name[2:]}.found"
 

@@ -39,9 +39,7 @@ _PART = re.compile(r"left|front|steer|wheel|(?<![a-z])(?:f[lr]|[rb]l|l[fbh]|rf|l
 
 
 def features_of(
-    robot: Robot,
-    facts: ElementFacts | None = None,
-    key: Callable[[Link | Joint | Element], Hashable] | None = None,
+    robot: Robot, facts: ElementFacts | None = None, key: Callable[[Link | Joint | Element], Hashable] | None = None
 ) -> set[str]:
     """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``.
 

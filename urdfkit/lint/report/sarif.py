@@ -35,11 +35,7 @@ def as_sarif(findings: Sequence[Finding]) -> str:
     order = {rule.code: index for index, rule in enumerate(described)}
     run = {
         "tool": {
-            "driver": {
-                "name": "urdfkit",
-                "semanticVersion": __version__,
-                "rules": [_rule(rule) for rule in described],
-            }
+            "driver": {"name": "urdfkit", "semanticVersion": __version__, "rules": [_rule(rule) for rule in described]}
         },
         "originalUriBaseIds": {_ROOT: {"uri": f"{Path.cwd().as_uri()}/"}},
         "columnKind": "unicodeCodePoints",  # 3.14.27: columns count characters
@@ -112,12 +108,7 @@ def _at(position: Position) -> dict[str, Any]:
 
 def _region(span: Span) -> dict[str, int]:
     """Return a region; the end column is exclusive, as in `Span` (3.30.8)."""
-    return {
-        "startLine": span.line,
-        "startColumn": span.column,
-        "endLine": span.end_line,
-        "endColumn": span.end_column,
-    }
+    return {"startLine": span.line, "startColumn": span.column, "endLine": span.end_line, "endColumn": span.end_column}
 
 
 def _file(file: str) -> dict[str, str]:

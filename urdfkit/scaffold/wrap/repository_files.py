@@ -42,13 +42,7 @@ def repository_template(origin: str, *, repository: bool, licensed: bool) -> Tem
 
 
 def render_repository_files(
-    staged: Path,
-    name: str,
-    origin: str,
-    values: Mapping[str, str],
-    *,
-    repository: bool,
-    without: Collection[str] = (),
+    staged: Path, name: str, origin: str, values: Mapping[str, str], *, repository: bool, without: Collection[str] = ()
 ) -> None:
     """Render the tests of a robot's packages, and the files outside the packages.
 

@@ -36,11 +36,7 @@ class GlRenderer:
     """
 
     def __init__(
-        self,
-        table: RayTable,
-        lighting: Lighting,
-        backend: str = "egl",
-        note: Callable[[str], None] = lambda _: None,
+        self, table: RayTable, lighting: Lighting, backend: str = "egl", note: Callable[[str], None] = lambda _: None
     ) -> None:
         import moderngl
 

@@ -218,8 +218,7 @@ def _require_ordinary(link: WorldLink, name: str) -> None:
         )
     if link.kinematic:
         raise SimulationError(
-            f"link `{link.name}` of `{name}` is kinematic, which is not supported",
-            position=link.position,
+            f"link `{link.name}` of `{name}` is kinematic, which is not supported", position=link.position
         )
 
 

@@ -35,12 +35,7 @@ class RobotVectorEnvironment(VectorEnv[Observation, NDArray[np.float32], Numbers
     metadata: dict[str, Any] = {"autoreset_mode": AutoresetMode.SAME_STEP}  # noqa: RUF012  (annotated in gymnasium)
 
     def __init__(
-        self,
-        model: Robot | str | Path,
-        task: Task,
-        num_envs: int = 1,
-        render_mode: str | None = None,
-        **options: Any,
+        self, model: Robot | str | Path, task: Task, num_envs: int = 1, render_mode: str | None = None, **options: Any
     ) -> None:
         self.num_envs, self.render_mode = num_envs, render_mode
         self._episodes = Episodes(model, task, num_envs, **options)

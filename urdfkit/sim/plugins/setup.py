@@ -80,9 +80,7 @@ class Setup:
         robot = self.kinematics.robot
         if name in robot.joint_by_name:
             raise SimulationError(
-                f"joint `{name}` is {robot.joint_by_name[name].type}: it cannot be driven",
-                position=position,
-                code=code,
+                f"joint `{name}` is {robot.joint_by_name[name].type}: it cannot be driven", position=position, code=code
             )
         raise SimulationError(
             f"no joint `{name}` in robot `{robot.name}`" + did_you_mean(name, names), position=position, code=code

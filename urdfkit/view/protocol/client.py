@@ -132,8 +132,7 @@ async def connect(url: str) -> Client:
             raise ResourceError(f"{place}: {_refusal(answer.code)}")
         headers = HTTPHeaders({"Cookie": "; ".join(cookies), "Origin": place})
         line = await websocket_connect(
-            HTTPRequest(f"ws://{parts.netloc}/ws", headers=headers, request_timeout=TIMEOUT),
-            max_message_size=MAX_FRAME,
+            HTTPRequest(f"ws://{parts.netloc}/ws", headers=headers, request_timeout=TIMEOUT), max_message_size=MAX_FRAME
         )
     except UrdfkitError:
         raise

@@ -32,11 +32,7 @@ class RunControls:
 
 
 def advance_in_real_time(
-    simulator: Simulator,
-    bridges: Bridges,
-    end: Callable[[], bool],
-    *,
-    clock: Callable[[], float] = time.monotonic,
+    simulator: Simulator, bridges: Bridges, end: Callable[[], bool], *, clock: Callable[[], float] = time.monotonic
 ) -> None:
     """Advance until `end` returns true, which is called before every step that peers may have changed.
 

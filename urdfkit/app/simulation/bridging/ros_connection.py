@@ -37,11 +37,7 @@ class RosOptions:
 
 
 def connect_to_ros(
-    bus: Bus,
-    options: RosOptions,
-    bridges: Bridges,
-    services: Mapping[str, Service],
-    report: Callable[[str], None],
+    bus: Bus, options: RosOptions, bridges: Bridges, services: Mapping[str, Service], report: Callable[[str], None]
 ) -> None:
     """Open the connections and add them to the bridges, which close them.
 

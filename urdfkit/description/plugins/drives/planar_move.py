@@ -1,10 +1,6 @@
 """Plugins that move the base itself: planar move (ROS 1, ROS 2) and gz sim's velocity control."""
 
-from urdfkit.description.plugins.common_parameters import (
-    gazebo_ros_1,
-    gazebo_ros_2,
-    gz_system,
-)
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2, gz_system
 from urdfkit.description.plugins.spec import Parameter
 
 PLANAR_MOVE_ROS_1 = gazebo_ros_1(

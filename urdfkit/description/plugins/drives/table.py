@@ -9,13 +9,5 @@ from urdfkit.description.plugins.drives.gz_mecanum_drive import MECANUM_DRIVE_GZ
 from urdfkit.description.plugins.drives.planar_move import PLANAR_MOVE
 from urdfkit.description.plugins.drives.tricycle import TRICYCLE
 
-DRIVES = (
-    *DIFF_DRIVE,
-    SKID_STEER_ROS_1,
-    *PLANAR_MOVE,
-    *ACKERMANN,
-    *TRICYCLE,
-    MECANUM_DRIVE_GZ,
-    ODOMETRY_PUBLISHER_GZ,
-)
+DRIVES = (*DIFF_DRIVE, SKID_STEER_ROS_1, *PLANAR_MOVE, *ACKERMANN, *TRICYCLE, MECANUM_DRIVE_GZ, ODOMETRY_PUBLISHER_GZ)
 """All drives."""

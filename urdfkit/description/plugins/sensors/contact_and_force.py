@@ -11,11 +11,7 @@ BUMPER_ROS_1 = gazebo_ros_1(
 )
 """All values are in world axes, independent of ``frameName``."""
 
-BUMPER_ROS_2 = gazebo_ros_2(
-    "bumper",
-    "gazebo_ros_bumper",
-    Parameter("frame", "frame_name", "world", names="frame"),
-)
+BUMPER_ROS_2 = gazebo_ros_2("bumper", "gazebo_ros_bumper", Parameter("frame", "frame_name", "world", names="frame"))
 """Publishes on ``bumper_states``, changed by ``<ros><remapping>`` only."""
 
 CONTACT_GZ = PluginSpec(

@@ -66,11 +66,7 @@ P3D_ROS_2 = gazebo_ros_2(
 )
 """Publishes on ``odom``, changed by ``<ros><remapping>`` only."""
 
-GPS_ROS_2 = gazebo_ros_2(
-    "gps",
-    "gazebo_ros_gps_sensor",
-    Parameter("frame", "frame_name", "{link}", names="frame"),
-)
+GPS_ROS_2 = gazebo_ros_2("gps", "gazebo_ros_gps_sensor", Parameter("frame", "frame_name", "{link}", names="frame"))
 """Publishes on ``~/out``."""
 
 NAVSAT_GZ = gz_sensor("gz_navsat", "/navsat", "NavSatSensor.cc")

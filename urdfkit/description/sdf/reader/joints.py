@@ -95,10 +95,7 @@ def _mimic(element: Element) -> WorldMimic:
     if (axis := element.get("axis") or "axis") != "axis":
         raise wrong(element, f"a <mimic> follows `{axis}` of joint `{leader}`; only <axis> can be followed")
     return WorldMimic(
-        leader,
-        scalar(element, "multiplier", 1.0),
-        scalar(element, "offset", 0.0),
-        scalar(element, "reference", 0.0),
+        leader, scalar(element, "multiplier", 1.0), scalar(element, "offset", 0.0), scalar(element, "reference", 0.0)
     )
 
 

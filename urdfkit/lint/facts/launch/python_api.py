@@ -108,12 +108,7 @@ _OF_XML = {
 }
 """Attribute or element of XML launch files → keyword in Python."""
 
-OF_FOXY = {
-    "node_executable": "executable",
-    "node_name": "name",
-    "node_namespace": "namespace",
-    "node_plugin": "plugin",
-}
+OF_FOXY = {"node_executable": "executable", "node_name": "name", "node_namespace": "namespace", "node_plugin": "plugin"}
 """Keyword of nodes until Foxy, which Galactic removed → the keyword that replaces it (launch_ros 0.12)."""
 
 LISTS = frozenset(("arguments", "cmd", "parameters", "remappings", "ros_arguments"))

@@ -135,12 +135,7 @@ def _relative(node: ast.expr, reader: LaunchReader) -> str:
 
 
 def _pipelines(
-    source: Source,
-    default: ast.expr | None,
-    names: ast.expr | None,
-    folder: Path,
-    reader: LaunchReader,
-    model: Model,
+    source: Source, default: ast.expr | None, names: ast.expr | None, folder: Path, reader: LaunchReader, model: Model
 ) -> Iterator[tuple[Span, str]]:
     """Yield the pipelines without a file, and a default pipeline that is not one of the list."""
     if isinstance(names, ast.Name):

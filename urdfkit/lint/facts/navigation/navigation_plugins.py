@@ -162,12 +162,7 @@ def _in_ros1(source: Source, loaded: set[str]) -> Defects:
                     yield source, value, f"`{package}` has no plugin `{kind}`" + Suggestion(near, kind)
 
 
-_FOOTPRINTS = {
-    "circular": "radius",
-    "two_circles": "front_radius",
-    "line": "line_start",
-    "polygon": "vertices",
-}
+_FOOTPRINTS = {"circular": "radius", "two_circles": "front_radius", "line": "line_start", "polygon": "vertices"}
 """Type of ``footprint_model`` of teb_local_planner → its parameter (teb_local_planner_ros.cpp, Noetic)."""
 
 

@@ -167,10 +167,7 @@ CHOICES = {
 SLAM_MODES = ("mapping", "localization")
 """Values of ``mode`` of slam_toolbox (README.md)."""
 
-MOTION_MODELS = {
-    "differential": "nav2_amcl::DifferentialMotionModel",
-    "omnidirectional": "nav2_amcl::OmniMotionModel",
-}
+MOTION_MODELS = {"differential": "nav2_amcl::DifferentialMotionModel", "omnidirectional": "nav2_amcl::OmniMotionModel"}
 """Motion models of amcl until Galactic → the plugins of Humble and later."""
 
 SIMILAR = {

@@ -66,12 +66,7 @@ def nodes_without_arguments(model: Model) -> Iterator[tuple[Source, tuple[int, i
             tag.attributes[name].value.strip() if name in tag.attributes else "" for name in ("pkg", "type", "args")
         )
         if (package, program) in _LOADED and not _has_parameters(tag, source, _LOADED[package, program]):
-            yield (
-                source,
-                (tag.start, tag.end),
-                f"`{program}` has no inputs; load its parameters with <rosparam>",
-                (),
-            )
+            yield (source, (tag.start, tag.end), f"`{program}` has no inputs; load its parameters with <rosparam>", ())
         needed = _ROS1.get((package, program))
         if needed is not None and not arguments:
             yield source, (tag.start, tag.end), f"`{program}` has no arguments; write {needed} in `args`", ()

@@ -222,14 +222,7 @@ def misplaced(
                 wrong.append((folder, BuildDefect(source, start, written, f"{message} `{share}/{folder}`")))
             continue
         is_share = re.fullmatch(r"share(/\w+)?", place) is not None
-        is_elsewhere = is_share or place.partition("/")[0] in (
-            files.name,
-            "lib",
-            "bin",
-            "include",
-            "etc",
-            "launch",
-        )
+        is_elsewhere = is_share or place.partition("/")[0] in (files.name, "lib", "bin", "include", "etc", "launch")
         for folder in folders if is_elsewhere else ():
             if folder.partition("/")[0] in {*used, *_FOLDERS}:
                 message = f"folder `{folder}` is installed to `{place}`, but its files are looked up in `{share}`"

@@ -136,13 +136,7 @@ def _problem(name: str, value: Node, type: str) -> str:
     return _scalar(name, value, kind) if value.text and "$" not in value.text else ""
 
 
-_KINDS = {
-    "bool": "true or false",
-    "double": "a number",
-    "int": "an integer",
-    "list": "a list",
-    "text": "a string",
-}
+_KINDS = {"bool": "true or false", "double": "a number", "int": "an integer", "list": "a list", "text": "a string"}
 
 
 def _scalar(name: str, value: Node, kind: str) -> str:

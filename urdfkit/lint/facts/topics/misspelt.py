@@ -13,13 +13,7 @@ from urdfkit.lint.facts.control.yaml_tree import start_of
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.ros_packages import is_slip
-from urdfkit.lint.facts.topics.graph import (
-    has_namespaces,
-    is_closed,
-    published_by_type,
-    remapped,
-    starts_components,
-)
+from urdfkit.lint.facts.topics.graph import has_namespaces, is_closed, published_by_type, remapped, starts_components
 from urdfkit.lint.facts.topics.loops import published_together, swapped_types
 from urdfkit.lint.facts.topics.mentions import Mention, mentions, topics_of_receivers
 from urdfkit.lint.facts.topics.node_topics import topics_of

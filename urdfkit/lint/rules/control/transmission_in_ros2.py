@@ -37,10 +37,7 @@ class TransmissionInRos2(RobotRule):
     code = "C705"
     name = "transmission-in-ros2"
     severity = "warning"
-    only_for = (
-        "ros2",
-        "gz",
-    )
+    only_for = ("ros2", "gz")
 
     def check(self, model: Model) -> Findings:
         """Yield a finding at the first transmission of a robot without ``<ros2_control>``."""

@@ -66,13 +66,7 @@ class BadNumber(RobotRule):
                     yield self.at(model, place[0], problem.message, attribute=place[1], help=help)
                 continue
             fix = self._without_commas(problem, model)
-            yield self.at(
-                model,
-                problem.element,
-                problem.message,
-                attribute=problem.attribute,
-                fix=fix,
-            )
+            yield self.at(model, problem.element, problem.message, attribute=problem.attribute, fix=fix)
 
     def _without_commas(self, problem: Problem, model: Model) -> Fix | None:
         written = model.literal(problem.element, problem.attribute) if problem.attribute else None

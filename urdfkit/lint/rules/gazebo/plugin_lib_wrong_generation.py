@@ -32,12 +32,7 @@ class PluginLibWrongGeneration(RobotRule):
 
     code = "Z807"
     name = "plugin-lib-wrong-generation"
-    only_for = (
-        "gz",
-        "classic",
-        "ros1",
-        "ros2",
-    )
+    only_for = ("gz", "classic", "ros1", "ros2")
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each library of another generation."""

@@ -65,11 +65,5 @@ class JointTypeUnknown(RobotRule):
             suggestion = _FOREIGN_TYPES.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
             message = f"unknown type `{joint.type}` of joint `{joint.name}`" + Suggestion(suggestion)
             help = f"use one of {', '.join(JOINT_TYPES)}"
-            fix = new_value(
-                model,
-                joint.element,
-                "type",
-                suggestion,
-                "safe" if is_typo else "unsafe",
-            )
+            fix = new_value(model, joint.element, "type", suggestion, "safe" if is_typo else "unsafe")
             yield self.at(model, joint.element, message, attribute="type", joint=joint.name, help=help, fix=fix)

@@ -37,11 +37,7 @@ class NodeArgumentsMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node without the arguments that it needs."""
-        from urdfkit.lint.facts.nodes.needed_arguments import (
-            idle_managers,
-            nodes_without_arguments,
-            paused_simulations,
-        )
+        from urdfkit.lint.facts.nodes.needed_arguments import idle_managers, nodes_without_arguments, paused_simulations
         from urdfkit.lint.facts.nodes.unloaded_sections import maps_without_file
 
         for source, place, message in (*idle_managers(model), *paused_simulations(model)):

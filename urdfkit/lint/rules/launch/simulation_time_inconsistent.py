@@ -39,11 +39,7 @@ class SimulationTimeInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node with another clock."""
-        from urdfkit.lint.facts.nodes.simulation_time import (
-            computer_time,
-            time_without_simulation,
-            without_clock,
-        )
+        from urdfkit.lint.facts.nodes.simulation_time import computer_time, time_without_simulation, without_clock
 
         for source, place, message in (*without_clock(model), *computer_time(model), *time_without_simulation(model)):
             yield self.at_span(source.span(*place), message)

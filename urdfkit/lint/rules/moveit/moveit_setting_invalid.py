@@ -60,16 +60,8 @@ class MoveitSettingInvalid(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
-        from urdfkit.lint.facts.moveit.entry_defects import (
-            incomplete_entries,
-            uncontrolled_joints,
-            unused_limits,
-        )
-        from urdfkit.lint.facts.moveit.group_joints import (
-            orientation_out_of_reach,
-            projection_defects,
-            without_chain,
-        )
+        from urdfkit.lint.facts.moveit.entry_defects import incomplete_entries, uncontrolled_joints, unused_limits
+        from urdfkit.lint.facts.moveit.group_joints import orientation_out_of_reach, projection_defects, without_chain
         from urdfkit.lint.facts.moveit.planning import planning_defects
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups

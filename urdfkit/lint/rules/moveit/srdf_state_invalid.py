@@ -98,14 +98,7 @@ class SrdfStateInvalid(RobotRule):
                     ]
                     other = parent_at(model, robot.joint_by_name[branch[0]]) if len(branch) == 1 else None
                     yield self.at(
-                        model,
-                        value,
-                        message,
-                        attribute="name",
-                        joint=name,
-                        severity=severity,
-                        cause=cause,
-                        other=other,
+                        model, value, message, attribute="name", joint=name, severity=severity, cause=cause, other=other
                     )
                 yield from self._mimics(state, model, severity)
                 valued = {value.get("name") for value in values}

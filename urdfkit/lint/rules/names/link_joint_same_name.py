@@ -32,15 +32,7 @@ class LinkJointSameName(RobotRule):
     code = "N301"
     name = "link-joint-same-name"
     severity = "warning"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "moveit",
-            "ros1",
-            "ros2",
-        )
-    )
+    not_for = frozenset(("mujoco", "isaac", "moveit", "ros1", "ros2"))
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with the name of a link."""

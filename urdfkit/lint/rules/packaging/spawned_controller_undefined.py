@@ -81,8 +81,7 @@ class SpawnedControllerUndefined(RobotRule):
                 ):
                     continue
                 yield self.at_span(
-                    source.span(reference.start, reference.end),
-                    f"unknown controller `{reference.name}`" + hint,
+                    source.span(reference.start, reference.end), f"unknown controller `{reference.name}`" + hint
                 )
 
     def _namespaces(self, source: Source, model: Model) -> Findings:

@@ -48,11 +48,7 @@ class TopicUnconnected(RobotRule):
         from urdfkit.lint.facts.topics.node_topics import published_commands
         from urdfkit.lint.facts.topics.other_sides import other_side
         from urdfkit.lint.facts.topics.own_remappings import misnamed_in_code
-        from urdfkit.lint.facts.topics.velocity_commands import (
-            misnamed_remappings,
-            unfed_mux_topics,
-            unread_commands,
-        )
+        from urdfkit.lint.facts.topics.velocity_commands import misnamed_remappings, unfed_mux_topics, unread_commands
 
         loops = list(self_readers(model))
         # Otherwise the commands that the loop leaves without a reader are its consequence.

@@ -34,10 +34,7 @@ class RootLinkHasInertia(RobotRule):
     code = "T210"
     name = "root-link-has-inertia"
     severity = "note"
-    only_for = (
-        "ros1",
-        "ros2",
-    )
+    only_for = ("ros1", "ros2")
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for a root link with a mass."""

@@ -8,10 +8,5 @@ from urdfkit.sim.plugins.controllers.gz_joint_controllers import JointController
 from urdfkit.sim.plugins.controllers.ros2_control import Ros2Control
 from urdfkit.sim.plugins.controllers.ros_control import GazeboRosControl
 
-CONTROLLERS: tuple[type[Controller], ...] = (
-    GazeboRosControl,
-    Ros2Control,
-    JointPositionController,
-    JointController,
-)
+CONTROLLERS: tuple[type[Controller], ...] = (GazeboRosControl, Ros2Control, JointPositionController, JointController)
 """All controller plugins; a test fails if one of this folder is missing here."""

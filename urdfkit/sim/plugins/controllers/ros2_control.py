@@ -35,11 +35,7 @@ from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 
-SIMULATED = (
-    "gz_ros2_control/GazeboSimSystem",
-    "ign_ros2_control/IgnitionSystem",
-    "gazebo_ros2_control/GazeboSystem",
-)
+SIMULATED = ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem", "gazebo_ros2_control/GazeboSystem")
 """Hardware plugins of the simulators."""
 
 UPDATE_RATE = 100.0

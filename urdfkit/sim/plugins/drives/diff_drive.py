@@ -126,12 +126,7 @@ class DiffDrive(VelocityDrive):
         if self.spec.generation == "ros1":
             with_tf = published and (with_tf or setup.distro.before("kinetic"))
         self.topics = odometry_topics(
-            setup,
-            read,
-            topics,
-            published=published,
-            with_tf=with_tf,
-            twist_covariance=self.spec.generation == "ros2",
+            setup, read, topics, published=published, with_tf=with_tf, twist_covariance=self.spec.generation == "ros2"
         )
         wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
         self.wheels = Wheels(

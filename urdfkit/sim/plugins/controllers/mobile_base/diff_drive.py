@@ -67,8 +67,7 @@ class DiffDriveController(WheeledBase):
         read = self.settings
         if len(self._left) != len(self._right):
             raise DescriptionError(
-                f"{len(self._left)} left and {len(self._right)} right wheels; both must be equal",
-                position=read.place,
+                f"{len(self._left)} left and {len(self._right)} right wheels; both must be equal", position=read.place
             )
         separation, radius = read.number("wheel_separation", 0.0), read.number("wheel_radius", 0.0)
         for name, value in (("wheel_separation", separation), ("wheel_radius", radius)):

@@ -55,11 +55,7 @@ class Earth:
         (s, c), (sl, cl) = (sin(self.latitude), cos(self.latitude)), (sin(self.longitude), cos(self.longitude))
         east, north, up = (-sl, cl, 0.0), (-s * cl, -s * sl, c), (c * cl, c * sl, s)
         turn = np.array(
-            [
-                [cos(self.heading), -sin(self.heading), 0.0],
-                [sin(self.heading), cos(self.heading), 0.0],
-                [0.0, 0.0, 1.0],
-            ]
+            [[cos(self.heading), -sin(self.heading), 0.0], [sin(self.heading), cos(self.heading), 0.0], [0.0, 0.0, 1.0]]
         )
         axes: Array = matmul(np.column_stack([east, north, up]), turn)
         return axes
