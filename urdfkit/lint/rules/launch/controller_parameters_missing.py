@@ -55,8 +55,7 @@ class ControllerParametersMissing(RobotRule):
         for spawner in spawners(files):
             message = _message(spawner, files, defined, model)
             if message:
-                span = spawner.source.span(spawner.tag.start, spawner.tag.end)
-                yield self.at_span(span, message)
+                yield self.at_span(spawner.source.span(spawner.tag.start, spawner.tag.end), message)
         yield from self._controller_list(model, files)
         yield from self._controller_manager(model)
 

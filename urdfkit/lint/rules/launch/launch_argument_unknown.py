@@ -121,8 +121,7 @@ class LaunchArgumentUnknown(RobotRule):
         # A misspelt name has its own finding.
         if missing and not call.passes_all and file.is_ros1 == actions.is_ros1 and passed <= names:
             message = f"the include does not pass the required argument `{missing[0]}` of {target}"
-            span = file.source.span(call.start, call.end)
-            yield self.at_span(span, message, severity=severity)
+            yield self.at_span(file.source.span(call.start, call.end), message, severity=severity)
 
     def _xacro(self, file: LaunchActions, call: Call, model: Model) -> Findings:
         from urdfkit.description.xacro.declared_arguments import declared_arguments, is_used
@@ -162,8 +161,7 @@ class LaunchArgumentUnknown(RobotRule):
                 yield self._at(file, name, f"{target} has no argument `{name.name}`" + hint, severity)
 
     def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
-        span = file.source.span(name.start, name.end)
-        return self.at_span(span, message, severity=severity)
+        return self.at_span(file.source.span(name.start, name.end), message, severity=severity)
 
 
 _OPTIONAL = frozenset(("enable", "launch", "name", "path", "run", "show", "start", "use", "with"))

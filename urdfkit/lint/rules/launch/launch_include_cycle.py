@@ -50,8 +50,7 @@ class LaunchIncludeCycle(RobotRule):
                         reported.add(frozenset(path))
                         names = " → ".join(each.name for each in (*path, first))
                         message = "launch file includes itself" + (f": {names}" if len(path) > 1 else "")
-                        span = current.source.span(call.start, call.end)
-                        yield self.at_span(span, message)
+                        yield self.at_span(current.source.span(call.start, call.end), message)
                     elif found is not None and target is not None and target not in seen:
                         seen.add(target)
                         inner = actions_at(found, model)

@@ -96,8 +96,7 @@ class LaunchValueInvalid(RobotRule):
             defaults = actions_of(source).defaults
             found = (each for tag in tags for each in _invalid(tag, version, model, defaults))
             for attribute, message in (*found, *_conditions(tags)):
-                span = source.span(attribute.value_start, attribute.value_end)
-                yield self.at_span(span, message)
+                yield self.at_span(source.span(attribute.value_start, attribute.value_end), message)
             for attribute in _untyped(tags) if version == 2 else ():
                 message = "the launch reads the output of the command as YAML, and stops at text that is not YAML"
                 span = source.span(attribute.value_start, attribute.value_end)
@@ -117,8 +116,7 @@ class LaunchValueInvalid(RobotRule):
                 yield self.at_span(span, message, severity="warning")
             plugins = (each for each in wrong_plugins_in_launch(source) if meant_plugin(each[0].name) is None)
             for word, message in (*launch_parameter_defects(source), *plugins):  # L104 reports misspelt plugins
-                span = source.span(word.start, word.end)
-                yield self.at_span(span, message, severity="warning")
+                yield self.at_span(source.span(word.start, word.end), message, severity="warning")
 
 
 _TYPES = {

@@ -35,5 +35,4 @@ class MapTransformPublishedTwice(RobotRule):
         from urdfkit.lint.facts.nodes.map_transforms import published_together
 
         for source, place, names, message in published_together(model):
-            span = source.span(*place)
-            yield self.at_span(span, message, help="check the conditions of both nodes", names=names)
+            yield self.at_span(source.span(*place), message, help="check the conditions of both nodes", names=names)

@@ -48,5 +48,4 @@ class ParametersLoadedTwice(RobotRule):
                 space = f"namespace `{at['ns']}`" if "ns" in at else "this namespace"
                 line = source.span(first, first).line
                 message = f"{at['file'].rpartition('/')[2]} is already loaded into {space} on line {line}"
-                span = source.span(tag.start, tag.end)
-                yield self.at_span(span, message, help="write another namespace")
+                yield self.at_span(source.span(tag.start, tag.end), message, help="write another namespace")

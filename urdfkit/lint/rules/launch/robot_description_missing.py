@@ -51,8 +51,7 @@ class RobotDescriptionMissing(RobotRule):
                 continue
             if not any(is_slip(name, "robot_description") for name in names):  # launch-name-misspelt reports these
                 message = "`robot_state_publisher` is started without the parameter `robot_description`"
-                span = node.source.span(node.start, node.end)
-                yield self.at_span(span, message, names=("robot_description",))
+                yield self.at_span(node.source.span(node.start, node.end), message, names=("robot_description",))
         yield from self._in_ros1(model)
 
     def _in_ros1(self, model: Model) -> Findings:

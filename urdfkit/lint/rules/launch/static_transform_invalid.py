@@ -40,5 +40,4 @@ class StaticTransformInvalid(RobotRule):
         from urdfkit.lint.facts.nodes.static_transforms import static_transform_defects
 
         for source, word, message in static_transform_defects(model):
-            span = source.span(word.start, word.end)
-            yield self.at_span(span, message)
+            yield self.at_span(source.span(word.start, word.end), message)

@@ -32,5 +32,4 @@ class XacroArgumentMalformed(RobotRule):
             for word in (word for call in file.xacro for word in call.without_colon):
                 end = word.end
                 message = f"`{word.name}=` is not an argument of xacro; write `{word.name}:=`"
-                span = file.source.span(word.start, end + 1)
-                yield self.at_span(span, message)
+                yield self.at_span(file.source.span(word.start, end + 1), message)

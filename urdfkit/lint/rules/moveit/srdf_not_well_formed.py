@@ -45,8 +45,7 @@ class SrdfNotWellFormed(RobotRule):
                     continue
                 at = error.position
                 start = source.offset(at.line, at.column) if at is not None else 0
-                span = source.span(start, min(start + 1, len(source.text)))
-                yield self.at_span(span, error.message)
+                yield self.at_span(source.span(start, min(start + 1, len(source.text))), error.message)
 
 
 def _is_of_another_robot(source: Source, model: Model) -> bool:

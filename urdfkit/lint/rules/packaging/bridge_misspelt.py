@@ -131,8 +131,7 @@ class BridgeMisspelt(RobotRule):
             yield self.at_span(source.span(start, start + len(world)), message)
 
     def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
-        span = source.span(reference.start, reference.end)
-        return self.at_span(span, message, kind=kind)
+        return self.at_span(source.span(reference.start, reference.end), message, kind=kind)
 
 
 def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:

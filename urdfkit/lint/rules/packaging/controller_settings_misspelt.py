@@ -158,5 +158,4 @@ class ControllerSettingsMisspelt(RobotRule):
         help: str | None = None,
         severity: Severity | None = None,
     ) -> Finding:
-        span = source.span(start, start + len(text))
-        return self.at_span(span, message, severity=severity, help=help)
+        return self.at_span(source.span(start, start + len(text)), message, severity=severity, help=help)

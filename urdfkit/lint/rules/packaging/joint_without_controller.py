@@ -69,8 +69,7 @@ class JointWithoutController(RobotRule):
                 if all(_are_in_line(name, left[0], model) for name in moved):
                     message = f"`joints` of controller `{controller.name}` lacks joint `{left[0]}`, "
                     message += "which has a command interface"
-                    span = span_of(source, named)
-                    yield self.at_span(span, message, joint=left[0], help="add the joint")
+                    yield self.at_span(span_of(source, named), message, joint=left[0], help="add the joint")
 
 
 def _declares(source: Source, name: str) -> bool:

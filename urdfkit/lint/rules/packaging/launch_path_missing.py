@@ -63,8 +63,7 @@ class LaunchPathMissing(RobotRule):
                     continue
                 hint = near_path(package / reference.path)
                 if hint or not _is_created_at_run_time(package, reference.path):
-                    span = source.span(reference.start, reference.end)
-                    yield self._missing(reference, span, hint)
+                    yield self._missing(reference, source.span(reference.start, reference.end), hint)
         if neighbouring is not None:  # a launch file contains a path
             yield from self._with_arguments(model, neighbouring)
 

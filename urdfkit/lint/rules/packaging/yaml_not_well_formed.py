@@ -68,8 +68,7 @@ class YamlNotWellFormed(RobotRule):
                                 else f"colon after `{word}`"
                             )
                             message = f"missing {missing}: `{key.text}` is parsed as the string `{value.text}`"
-                            span = span_of(source, value)
-                            yield self.at_span(span, message, help=f"write `{word}: …`")
+                            yield self.at_span(span_of(source, value), message, help=f"write `{word}: …`")
 
     def _syntax_error(self, source: Source, broken: Broken) -> Finding:
         """Return the finding at the line that lacks a colon, or else at the position of the syntax error."""
