@@ -116,3 +116,85 @@ def test_the_robot_without_mistakes_has_no_findings(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rover.urdf.xacro").write_text(ROBOT)
     assert lint("rover.urdf.xacro", select=CODES) == []
+
+
+@pytest.mark.parametrize(
+    ("unknown", "is_kept"),
+    [
+        (('<link name="imu_link"/>', '<link name="imu_link"><xacro:shape/></link>'), True),
+        (('effort="5" velocity="2"', 'effort="${strength}" velocity="2"'), True),
+        (('<axis xyz="0 1 0"/>\n    </joint>', '<axis xyz="${tilt}"/>\n    </joint>'), False),
+        (('<origin xyz="0 ${sign * 0.3} 0"/>', '<origin xyz="0 ${sign * beam} 0"/>'), False),
+        (('<origin xyz="0.2 0 0.1"/>', '<origin xyz="0.2 0 ${height}"/>'), True),
+    ],
+    ids=["macro", "effort", "axis", "parent", "other part"],
+)
+def test_an_unknown_value_hides_only_findings_on_places_that_need_it(unknown, is_kept, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = ROBOT.replace('x="${-half}"', 'x="${half}"').replace(*unknown, 1)
+    (tmp_path / "rover.urdf.xacro").write_text(text)
+    found = lint("rover.urdf.xacro", select=(*CODES, "X103", "X104"))
+    expected = {"X103" if "xacro:shape" in unknown[1] else "X104", *(["S907"] if is_kept else [])}
+    assert {each.code for each in found} == expected
+
+
+WHEELS = """<robot name="rover" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="wheel" params="name x y z">
+    <link name="${name}_wheel"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    <joint name="${name}_wheel_joint" type="continuous">
+      <parent link="base"/><child link="${name}_wheel"/><origin xyz="${x} ${y} ${z}"/><axis xyz="0 1 0"/>
+    </joint>
+  </xacro:macro>
+  <xacro:macro name="leg" params="name is_left is_front">
+    <link name="${name}_hip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    <joint name="${name}_hip_joint" type="continuous">
+      <parent link="base"/><child link="${name}_hip"/><axis xyz="1 0 0"/>
+      <xacro:if value="${is_left}">
+        <origin xyz="${0.4 if is_front else -0.4} 0.2 0.3"/>
+      </xacro:if>
+      <xacro:unless value="${is_left}">
+        <origin xyz="${0.4 if is_front else -0.4} -0.2 0.3"/>
+      </xacro:unless>
+    </joint>
+  </xacro:macro>
+  <link name="base"/>
+  <xacro:wheel name="front_left"
+    x="0.31"
+    y="0.21"
+    z="0.1"/>
+  <xacro:wheel name="front_right"
+    x="0.31"
+    y="-0.21"
+    z="0.1"/>
+  <xacro:wheel name="rear_left"
+    x="-0.31"
+    y="0.21"
+    z="0.1"/>
+  <xacro:wheel name="rear_right"
+    x="-0.31"
+    y="-0.21"
+    z="0.1"/>
+  <xacro:leg name="FL" is_left="true" is_front="true"/>
+  <xacro:leg name="FR" is_left="false" is_front="true"/>
+  <xacro:leg name="RL" is_left="true" is_front="false"/>
+  <xacro:leg name="RR" is_left="false" is_front="false"/>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        (None, None),
+        (('y="0.21"', 'y="-0.21"'), 23),
+        (('x="-0.31"', 'x="0.31"'), 30),
+        (('y="-0.21"', 'y="-2.1"'), 27),
+        (('name="FR" is_left="false"', 'name="FR" is_left="true"'), 38),
+    ],
+    ids=["none", "left", "rear", "decimal point", "condition"],
+)
+def test_a_misplaced_part_is_reported_at_the_argument_that_misplaces_it(change, line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rover.urdf.xacro").write_text(WHEELS.replace(*change, 1) if change else WHEELS)
+    found = lint("rover.urdf.xacro", select=CODES)
+    assert [(each.code, each.line) for each in found] == ([("S909", line)] if line else [])

@@ -216,7 +216,7 @@ class Checker:
         if model.target != "urdfkit":  # whose repairs are findings
             from urdfkit.lint.engine.consequences import without_consequences
 
-            findings = without_consequences(findings)
+            findings = without_consequences(findings, lambda: model.unknown_parts)
         used: tuple[tuple[str, str], ...] = ()
         unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Callable, Collection, Iterator
     from typing import Literal
 
     from urdfkit.lint.finding import Finding
 
-    Relation = Literal["line", "name", "names", "meant", "call", "robot"]
+    Relation = Literal["line", "name", "names", "meant", "call", "robot", "unknown"]
     Pattern = tuple[str, str]
     """Code of a rule, and `Finding.kind`; an empty kind matches all findings of the rule."""
 
@@ -23,10 +23,16 @@ _ON_PLACES = (
     *("I519", "J421", "J424", "J427", "J428", "J429", "K970", "S901", "S904", "S907", "S908", "S909", "S910"),
     *("S911", "S915", "S918", "S919", "S920", "S921"),
 )
-"""Codes of findings on places of links, which a robot with a broken tree or unknown values does not have."""
+"""Codes of findings on places of links, which may be wrong because of a broken tree or unknown values."""
 
-_OF_TREE = ("T201", "T202", "T205", "T206", "X103", "X104", "X124")
-"""Codes of findings on links without a place, and on values that are unknown."""
+_OF_TREE = ("T201", "T202", "T205", "T206")
+"""Codes of findings on links without a place."""
+
+_OF_VALUES = ("X103", "X104", "X124")
+"""Codes of findings on values that are unknown."""
+
+_OF_WHOLE_ROBOT = frozenset(("J429", "K970", "S901", "S908", "S911", "S915", "S920", "S921"))
+"""Codes of findings that compare a part with all others, so any unknown place may be their cause."""
 
 _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
 """Findings on a robot whose package.xml names the build system of the other version of ROS."""
@@ -208,6 +214,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("X128", ""), "robot", ("C707", "undefined")),
     (("X128", ""), "robot", ("K959", "")),
     *(((code, ""), "robot", (other, "")) for code in _OF_TREE for other in _ON_PLACES),
+    *(((code, ""), "unknown", (other, "")) for code in _OF_VALUES for other in _ON_PLACES),
     *(((code, ""), "robot", ("S920", "")) for code in _PLACES),
     *(((code, ""), "robot", ("S921", "")) for code in (*_PLACES, "S920")),
 )
@@ -215,7 +222,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
 
 The relation is what both have in common: the line, the link, the joint or one of `Finding.names`, one of these names
 alone (``names``), the macro call or a call inside of it, or only the robot; ``meant`` is the name that the cause
-suggests and that the consequence misses, or that the cause has and the consequence suggests.
+suggests and that the consequence misses, or that the cause has and the consequence suggests. The consequences of an
+``unknown`` value concern parts that depend on it.
 """
 
 _WITH_FIX = (("E014", "E009"), ("I503", "I507"))
@@ -224,8 +232,13 @@ _WITH_FIX = (("E014", "E009"), ("I503", "I507"))
 _CODES = frozenset(code for _, _, (code, _) in _CONSEQUENCES)
 
 
-def without_consequences(findings: list[Finding]) -> list[Finding]:
-    """Return the findings on one robot without the consequences of another one of them."""
+def without_consequences(findings: list[Finding], unknown: Callable[[], Collection[str]] = tuple) -> list[Finding]:
+    """Return the findings on one robot without the consequences of another one of them.
+
+    Args:
+        findings: the findings.
+        unknown: returns the names of the parts that depend on unknown values.
+    """
     codes = {finding.code for finding in findings}
     if _CODES.isdisjoint(codes):
         return findings
@@ -234,6 +247,10 @@ def without_consequences(findings: list[Finding]) -> list[Finding]:
         if code not in codes or other not in codes:
             continue
         causes = list(_matching(findings, code, kind))
+        if relation == "unknown":
+            parts = set(unknown())
+            dropped.update(id(each) for each in _matching(findings, other, other_kind) if _is_unknown(each, parts))
+            continue
         shared = {common for cause in causes for common in _common(cause, relation)}
         for effect in _matching(findings, other, other_kind):
             if id(effect) in dropped or (effect.fix is not None and (code, other) in _WITH_FIX):
@@ -242,6 +259,12 @@ def without_consequences(findings: list[Finding]) -> list[Finding]:
             if not shared.isdisjoint(common) and not any(effect is cause for cause in causes):
                 dropped.add(id(effect))
     return [finding for finding in findings if id(finding) not in dropped]
+
+
+def _is_unknown(finding: Finding, parts: Collection[str]) -> bool:
+    """Return whether a finding on a place may vanish when the values of some parts become known."""
+    names = (finding.link, finding.joint, *finding.names)
+    return bool(parts) if finding.code in _OF_WHOLE_ROBOT else any(name in parts for name in names)
 
 
 def _matching(findings: list[Finding], code: str, kind: str) -> Iterator[Finding]:

@@ -128,7 +128,8 @@ def with_variants(
             if is_defect and key not in present and not _is_passed(one, variants):
                 findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
     if model.target != "urdfkit":
-        findings = without_consequences(findings)
+        names = {name for _, each, _ in every for name in each.unknown_parts}
+        findings = without_consequences(findings, lambda: names)
     merged = EntryResult(
         tuple(findings),
         {name: path for result, _, _ in every for name, path in result.files.items()},

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.source import Expansion, Position, Span
     from urdfkit.lint.model.model import Model
 
-    Place = tuple[Position, str]
-    """A start tag, and an attribute of it."""
+Place = tuple["Position", str]
+"""A start tag, and an attribute of it."""
 
 _EXPRESSION = r"\$\{([^{}]*)\}"
 _NAME = r"(?<![\w.'\"])[A-Za-z_]\w*(?!\w|\s*\()"
@@ -95,6 +95,27 @@ def shared_argument(model: Model, element: Element, other: Element) -> Place | N
         if name in used and (numbers[0] is not None or values[0][0] == values[1][0]):
             found = values[0][1]
     return found
+
+
+def argument_of_coordinate(model: Model, element: Element, other: Element, k: int) -> Place | None:
+    """Return the argument of a macro call that alone determines a coordinate in ``xyz``; None if it is ambiguous.
+
+    Args:
+        model: the linted model.
+        element: an element that a macro produced.
+        other: the same element, produced by another call.
+        k: index of the coordinate.
+    """
+    calls, others = element.origin.expansions, other.origin.expansions
+    tag = model.tag(element.origin.position)
+    macro = model.expanded.macros.get(calls[0].macro) if calls else None
+    written = tag.attributes.get("xyz") if tag is not None else None
+    parts = re.findall(r"(?:\$\{[^{}]*\}|[^\s$])+", written.value) if written is not None else []
+    if macro is None or len(parts) != 3 or calls[0] in others:
+        return None
+    used = {name for inside in re.findall(_EXPRESSION, parts[k]) for name in _names(inside)}
+    places = [value_of(model, name, calls)[1] for name in macro.parameters if name in used]
+    return places[0] if len(places) == 1 else None
 
 
 def _names(expression: str) -> list[str]:

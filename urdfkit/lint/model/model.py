@@ -91,6 +91,13 @@ class Model:
         return any(fault.kind in _DROPPING and fault.details.get("cause") != "unbound prefix" for fault in faults)
 
     @cached_property
+    def unknown_parts(self) -> frozenset[str]:
+        """Names of the links and joints that depend on values that xacro could not compute."""
+        from urdfkit.lint.model.unknown_parts import unknown_parts
+
+        return unknown_parts(self.robot, self.expanded)
+
+    @cached_property
     def is_damaged(self) -> bool:
         """Whether defined elements may lack parts; missing files and macros lack elements of their own only."""
         kept = _DROPPING - {"package-not-found", "include-not-found", "undefined-macro"}

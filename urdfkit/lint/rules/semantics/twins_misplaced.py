@@ -6,9 +6,10 @@ from math import dist, hypot, inf
 
 from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.placement.directions import Directions
 from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
 from urdfkit.lint.facts.placement.twin_overlaps import overlapping_twins
-from urdfkit.lint.facts.root_cause import shared_argument
+from urdfkit.lint.facts.root_cause import Place, argument_of_coordinate, call_of, shared_argument
 from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, side_of, twins
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -19,6 +20,9 @@ _SAME = 0.02
 _UNEVEN = 0.25
 """Largest accepted difference of coordinates, as a fraction of the distance from the parent."""
 
+
+_CONDITIONS = ("xacro:if", "xacro:unless")
+"""Directives of a macro that select one of several origins."""
 
 _UPRIGHT = 0.99
 """Cosine of the angle up to which the parent of twins counts as upright."""
@@ -84,22 +88,24 @@ class TwinsMisplaced(RobotRule):
         if model.is_damaged:
             return
         for joint, message, help in _on_other_side(model):
-            at_parent, both = joint.element.find("parent") or joint.element, (joint.child or "", *mirrored(joint.name))
-            yield self.at(model, at_parent, message, attribute="link", joint=joint.name, help=help, names=both)
+            at_parent, names = joint.element.find("parent") or joint.element, (joint.child or "", *mirrored(joint.name))
+            yield self.at(model, at_parent, message, attribute="link", joint=joint.name, help=help, names=names)
             return
-        defects = [(pair, defect) for pair in twins(model) if (defect := _defect(pair, model)) is not None]
+        pairs = list(twins(model))
+        defects = [(pair, defect) for pair in pairs if (defect := _defect(pair, model)) is not None]
         counts = Counter(joint.name for pair, _ in defects for joint in (pair.first, pair.second))
         found: set[str] = set()
         arguments: list[object] = []
+        directions = Directions(pairs if defects else ())
         for pair, (message, help) in defects:
-            wrong = pair.first if counts[pair.first.name] > counts[pair.second.name] else pair.second
+            both = (pair.first, pair.second)
+            scores = [(counts[joint.name], len(directions.contradicted(joint))) for joint in both]
+            wrong, right = both if scores[0] > scores[1] else both[::-1]
             if found.isdisjoint((pair.first.name, pair.second.name)):
                 found.add(wrong.name)
                 origin = wrong.element.find("origin") or wrong.element
-                names: tuple[str, ...] = (pair.first.name, pair.second.name)
-                names += tuple(link for joint in (pair.first, pair.second) if (link := joint.child))
-                other = (pair.first if wrong is pair.second else pair.second).element.find("origin")
-                argument = shared_argument(model, origin, other) if other is not None else None
+                names = (*(joint.name for joint in both), *(joint.child for joint in both if joint.child))
+                argument = _argument(model, wrong, right, directions.wrong_coordinate(wrong, pair))
                 place, attribute = argument or (origin, "xyz")
                 if argument is None or argument not in arguments:
                     arguments.append(argument)
@@ -119,6 +125,20 @@ class TwinsMisplaced(RobotRule):
             help = "check their sizes, and the distance between the two sides"
             yield self.at(model, place, message, link=overlapping.name, help=help)
             break
+
+
+def _argument(model: Model, wrong: Joint, right: Joint, k: int) -> Place | None:
+    """Return the argument of a macro call, or the call, that misplaces a joint in a coordinate."""
+    origin, other = wrong.element.find("origin"), right.element.find("origin")
+    if origin is None or other is None:
+        return None
+    if origin.origin.position == other.origin.position:
+        argument = argument_of_coordinate(model, origin, other, k) or shared_argument(model, origin, other)
+        tag = model.tag(origin.origin.position)
+        if argument is not None or tag is None or all(above.name not in _CONDITIONS for above in tag.ancestors()):
+            return argument
+    call = call_of(wrong.element, [right.element])  # Conditions of the macro select one of several origins.
+    return (call, "") if call is not None else None
 
 
 def _on_other_side(model: Model) -> Iterator[tuple[Joint, str, str]]:
