@@ -3,7 +3,7 @@
 from urdfkit.description.hardware_defects import MOCKS
 from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins, runs_ros2_control, simulated_hardware
-from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.finding import Edit, Fix, Severity
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -99,13 +99,8 @@ class HardwareMismatch(RobotRule):
                 if suggestion is None or is_exported_plugin(model, text):
                     if is_run:
                         message = f"hardware `{text}` is not simulated; its joints are not controlled in Gazebo"
-                        yield self.at(
-                            model,
-                            element,
-                            message,
-                            help=_ARGUMENT,
-                            severity="warning" if model.target == "urdfkit" else "note",
-                        )
+                        severity: Severity | None = "warning" if model.target == "urdfkit" else "note"
+                        yield self.at(model, element, message, help=_ARGUMENT, severity=severity)
                     continue
                 expected, message = suggestion, f"unknown hardware `{text}`"
             help = f"write `{expected}`"

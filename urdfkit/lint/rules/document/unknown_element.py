@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.finding import Fix
+from urdfkit.lint.finding import Fix, Severity
 from urdfkit.lint.fix_builders import nearest, new_tag
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN, misspelt_in_robot
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -92,16 +92,9 @@ class UnknownElement(RobotRule):
                 continue
             hint, fix, message = _hint(parent, child), _renamed(model, parent, child), _message(parent, child)
             is_extension = ":" in child.tag or (hint is None and parent.tag not in ("inertial", "geometry"))
-            yield self.at(
-                model,
-                child,
-                message,
-                link=link,
-                joint=joint,
-                help="ROS, Gazebo and MuJoCo ignore it" if is_extension else hint,
-                fix=fix,
-                severity="note" if is_extension else None,
-            )
+            help = "ROS, Gazebo and MuJoCo ignore it" if is_extension else hint
+            severity: Severity | None = "note" if is_extension else None
+            yield self.at(model, child, message, link=link, joint=joint, help=help, fix=fix, severity=severity)
 
     def _check_control(self, model: Model) -> Findings:
         robot = model.robot

@@ -2,6 +2,7 @@
 
 from urdfkit.description.urdf.version import FIRST_VERSIONS, RATES, shown, version_of
 from urdfkit.description.value_defects import later_feature, later_features
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.fix_builders import more_attributes, new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -61,12 +62,7 @@ class UrdfVersionTooLow(RobotRule):
         for name, elements in uses.items():
             more = f" ({len(elements) - 1} more)" if len(elements) > 1 else ""
             effect = "urdfdom drops the shape" if name == "capsule" else "it is ignored"
-            yield self.at(
-                model,
-                elements[0],
-                f"{later_feature(name, declared)}: {effect}{more}",
-                attribute=name,
-                help=f'write version="{needed}" in <robot>, if all readers of the robot support it',
-                fix=fix,
-                severity="error" if name == "quat_xyzw" else "note" if name in RATES else None,
-            )
+            message = f"{later_feature(name, declared)}: {effect}{more}"
+            help = f'write version="{needed}" in <robot>, if all readers of the robot support it'
+            severity: Severity | None = "error" if name == "quat_xyzw" else "note" if name in RATES else None
+            yield self.at(model, elements[0], message, attribute=name, help=help, fix=fix, severity=severity)

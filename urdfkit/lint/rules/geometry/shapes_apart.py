@@ -74,15 +74,13 @@ class ShapesApart(RobotRule):
                     continue
                 origin = shape.element.find("origin")
                 is_moved = any(shape.origin.xyz) and dist(shape.origin.xyz, (0.0, 0.0, 0.0)) > far / 2.0
-                yield self.at(
-                    model,
-                    (origin if is_moved else None) or shape.element.find("geometry") or shape.element,
+                place = (origin if is_moved else None) or shape.element.find("geometry") or shape.element
+                message = (
                     f"<{shape.element.tag}> of link `{link.name}` extends {far:.3g} m from the centre of mass, the "
-                    f"other shapes {near:.3g} m",
-                    attribute="xyz" if is_moved else None,
-                    link=link.name,
-                    help="check the decimal points and units of the shape",
                 )
+                message += f"other shapes {near:.3g} m"
+                help = "check the decimal points and units of the shape"
+                yield self.at(model, place, message, attribute="xyz" if is_moved else None, link=link.name, help=help)
 
 
 def _is_safety_hull(link: Link, shape: Visual | Collision, far: float) -> bool:

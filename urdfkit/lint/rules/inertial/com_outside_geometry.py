@@ -129,11 +129,9 @@ class ComOutsideGeometry(RobotRule):
             for a, b in zip(written, (computed[0], computed[3], computed[5]), strict=True)
         ):
             return
-        yield self.at(
-            model,
-            origin or inertial.element,
-            f"centre of mass of link `{link.name}` is {distance:.3g} m from the centre of the shape with this inertia",
-            attribute="xyz" if origin is not None else None,
-            link=link.name,
-            help="copy the <origin> of the shape to <inertial>",
+        place = origin or inertial.element
+        message = (
+            f"centre of mass of link `{link.name}` is {distance:.3g} m from the centre of the shape with this inertia"
         )
+        help = "copy the <origin> of the shape to <inertial>"
+        yield self.at(model, place, message, attribute="xyz" if origin is not None else None, link=link.name, help=help)

@@ -6,6 +6,7 @@ from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import is_identity
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_MOMENT, MAX_MOMENT = 0.1, 25.0
@@ -68,12 +69,8 @@ class InertiaIdentity(RobotRule):
                     continue  # The size of the link is unknown.
                 if bodies.is_fixed_to_world(link):
                     continue
-                yield self.at(
-                    model,
-                    element,
-                    f"inertia of link `{link.name}` is the identity matrix, a placeholder",
-                    link=link.name,
-                    help="compute it from shape and mass",
-                    fix=computed(model, link, element),
-                    severity="note" if link.name in roots and not is_simulated(model) else None,
-                )
+                message = f"inertia of link `{link.name}` is the identity matrix, a placeholder"
+                help = "compute it from shape and mass"
+                fix = computed(model, link, element)
+                severity: Severity | None = "note" if link.name in roots and not is_simulated(model) else None
+                yield self.at(model, element, message, link=link.name, help=help, fix=fix, severity=severity)

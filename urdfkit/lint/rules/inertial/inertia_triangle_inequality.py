@@ -2,6 +2,7 @@
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import principal_moments, reordered, shown
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 1e-3
@@ -61,12 +62,8 @@ class InertiaTriangleInequality(RobotRule):
                 excess = (large - small - middle) / large
                 is_note = excess <= SLIP or bodies.is_negligible(link)
                 is_warning = excess <= TOLERANCE or bodies.is_fixed(link) or bodies.is_small(link)
-                yield self.at(
-                    model,
-                    element,
-                    f"inertia of link `{link.name}` is impossible: principal moments {a}, {b}, {c} kg·m²: "
-                    f"{a} + {b} < {c}",
-                    link=link.name,
-                    help="compute it from shape and mass; set placeholders for products of inertia to 0",
-                    severity="note" if is_note else "warning" if is_warning else "error",
-                )
+                message = f"inertia of link `{link.name}` is impossible: principal moments {a}, {b}, {c} kg·m²: "
+                message += f"{a} + {b} < {c}"
+                help = "compute it from shape and mass; set placeholders for products of inertia to 0"
+                severity: Severity | None = "note" if is_note else "warning" if is_warning else "error"
+                yield self.at(model, element, message, link=link.name, help=help, severity=severity)

@@ -2,6 +2,7 @@
 
 from urdfkit.description.urdf.massless_links import is_free, massless
 from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS, computed
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -55,12 +56,8 @@ class InertiaZero(RobotRule):
                 continue
             if moving is None:
                 moving = {body.name for body, _ in massless(model.robot, floating=is_free(model.robot))}
-            yield self.at(
-                model,
-                inertia.element,
-                f"link `{link.name}` has a mass of {inertial.mass:g} kg but zero inertia",
-                link=link.name,
-                help="compute the inertia from shape and mass",
-                fix=computed(model, link, inertia.element),
-                severity=None if link.name in moving else "note",
-            )
+            message = f"link `{link.name}` has a mass of {inertial.mass:g} kg but zero inertia"
+            help = "compute the inertia from shape and mass"
+            fix = computed(model, link, inertia.element)
+            severity: Severity | None = None if link.name in moving else "note"
+            yield self.at(model, inertia.element, message, link=link.name, help=help, fix=fix, severity=severity)

@@ -2,6 +2,7 @@
 
 from urdfkit.description.urdf.massless_links import is_free, massless
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _HELP = "set a mass greater than 0 kg"
@@ -52,15 +53,9 @@ class MassNonpositive(RobotRule):
             tensor = link.inertial.inertia
             has_inertia = tensor is not None and min(tensor.ixx, tensor.iyy, tensor.izz) > 0.0
             if has_inertia and (link.visuals or link.collisions) and link.name not in fixed:
-                yield self.at(
-                    model,
-                    element,
-                    f"link `{link.name}` has an inertia but no mass",
-                    attribute="value",
-                    link=link.name,
-                    help=_HELP,
-                    severity=None if is_simulated(model) else "warning",
-                )
+                message = f"link `{link.name}` has an inertia but no mass"
+                severity: Severity | None = None if is_simulated(model) else "warning"
+                yield self.at(model, element, message, attribute="value", link=link.name, help=_HELP, severity=severity)
                 continue
             if moved is None:
                 found = massless(model.robot, floating=is_free(model.robot))

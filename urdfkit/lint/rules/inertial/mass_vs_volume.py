@@ -65,11 +65,7 @@ class MassVsVolume(RobotRule):
             if heaviest < MIN_DENSITY or lightest > MAX_DENSITY:
                 density = heaviest if heaviest < MIN_DENSITY else lightest
                 litres = mass / density * 1000.0
-                yield self.at(
-                    model,
-                    link.inertial.element.find("mass") or link.inertial.element,
-                    f"link `{link.name}` has a density of {density:.3g} kg/m³: {mass:g} kg in {litres:.3g} litres",
-                    attribute="value",
-                    link=link.name,
-                    help="check that the mass is in kg and the sizes are in m",
-                )
+                place = link.inertial.element.find("mass") or link.inertial.element
+                message = f"link `{link.name}` has a density of {density:.3g} kg/m³: {mass:g} kg in {litres:.3g} litres"
+                help = "check that the mass is in kg and the sizes are in m"
+                yield self.at(model, place, message, attribute="value", link=link.name, help=help)

@@ -1,5 +1,6 @@
 """J413 axis-missing-on-movable."""
 
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.fix_builders import more_children
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -55,12 +56,9 @@ class AxisMissing(RobotRule):
                 continue
             child = model.robot.link_by_name.get(joint.child or "")
             if child is not None and (child.visuals or child.collisions or child.inertial is not None):
+                message = f"{joint.type} joint `{joint.name}` has no <axis> and uses the default, x (1 0 0)"
+                severity: Severity | None = "warning" if is_forgotten and not joint.mimic else None
+                fix = more_children(model, joint.element, '<axis xyz="1 0 0"/>', "safe", "Write the default axis")
                 yield self.at(
-                    model,
-                    joint.element,
-                    f"{joint.type} joint `{joint.name}` has no <axis> and uses the default, x (1 0 0)",
-                    attribute="name",
-                    joint=joint.name,
-                    severity="warning" if is_forgotten and not joint.mimic else None,
-                    fix=more_children(model, joint.element, '<axis xyz="1 0 0"/>', "safe", "Write the default axis"),
+                    model, joint.element, message, attribute="name", joint=joint.name, severity=severity, fix=fix
                 )

@@ -35,11 +35,7 @@ class AxisZero(RobotRule):
         for joint in model.robot.joints:
             if joint.type in ("revolute", "continuous", "prismatic", "planar") and not joint.has_axis:
                 axis = " ".join(f"{part:g}" for part in joint.axis)
-                yield self.at(
-                    model,
-                    joint.element.find("axis") or joint.element,
-                    f"joint `{joint.name}` has the axis {axis}, which has no direction",
-                    attribute="xyz",
-                    joint=joint.name,
-                    help="write the direction of the axis, such as 0 0 1",
-                )
+                place = joint.element.find("axis") or joint.element
+                message = f"joint `{joint.name}` has the axis {axis}, which has no direction"
+                help = "write the direction of the axis, such as 0 0 1"
+                yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)

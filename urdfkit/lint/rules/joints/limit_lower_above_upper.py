@@ -47,16 +47,12 @@ class LimitLowerAboveUpper(RobotRule):
             lower, upper = limit.lower or 0.0, limit.upper or 0.0
             if lower > upper:
                 unit = "rad" if joint.type == "revolute" else "m"
-                yield self.at(
-                    model,
-                    limit.element,
-                    f"lower limit {lower:g} {unit} of joint `{joint.name}` is greater than "
-                    f"its upper limit {upper:g} {unit}",
-                    attribute="lower" if limit.lower is not None else "upper",
-                    joint=joint.name,
-                    help="swap the limits or correct their signs",
-                    fix=_swapped(limit, model),
-                )
+                message = f"lower limit {lower:g} {unit} of joint `{joint.name}` is greater than "
+                message += f"its upper limit {upper:g} {unit}"
+                attribute = "lower" if limit.lower is not None else "upper"
+                help = "swap the limits or correct their signs"
+                fix = _swapped(limit, model)
+                yield self.at(model, limit.element, message, attribute=attribute, joint=joint.name, help=help, fix=fix)
 
 
 def _swapped(limit: Limit, model: Model) -> Fix | None:

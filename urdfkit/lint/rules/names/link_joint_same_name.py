@@ -1,6 +1,7 @@
 """N301 link-joint-same-name."""
 
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -40,13 +41,10 @@ class LinkJointSameName(RobotRule):
         for joint in model.robot.joints:
             link = model.robot.link_by_name.get(joint.name)
             if link is not None and joint.name:
+                message = f"joint `{joint.name}` has the same name as a link, which SDF does not allow"
+                help = f"rename the joint to `{joint.name}_joint`; "
+                help += f"the link is at {model.shown(link.element.origin.position)}"
+                severity: Severity | None = None if may_become_sdf else "note"
                 yield self.at(
-                    model,
-                    joint.element,
-                    f"joint `{joint.name}` has the same name as a link, which SDF does not allow",
-                    attribute="name",
-                    joint=joint.name,
-                    help=f"rename the joint to `{joint.name}_joint`; "
-                    f"the link is at {model.shown(link.element.origin.position)}",
-                    severity=None if may_become_sdf else "note",
+                    model, joint.element, message, attribute="name", joint=joint.name, help=help, severity=severity
                 )

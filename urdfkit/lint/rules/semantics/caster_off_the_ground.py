@@ -158,15 +158,10 @@ class CasterOffTheGround(RobotRule):
                     f"link `{joint.child}` is {gap:.3g} m above the ground, so the robot tips by {degrees(tilt):.3g}°"
                 )
                 origin = joint.element.find("origin")
-                yield self.at(
-                    model,
-                    joint.element if origin is None else origin,
-                    message,
-                    attribute="name" if origin is None else "xyz",
-                    link=joint.child,
-                    joint=joint.name,
-                    help=f"lower the link by {gap:.3g} m",
-                )
+                place = joint.element if origin is None else origin
+                attribute = "name" if origin is None else "xyz"
+                help = f"lower the link by {gap:.3g} m"
+                yield self.at(model, place, message, attribute=attribute, link=joint.child, joint=joint.name, help=help)
 
 
 def _root(parent_joint: dict[str | None, Joint], joint: Joint) -> str | None:

@@ -53,11 +53,7 @@ class DoubleOffset(RobotRule):
                 and parents[0].origin.xyz == xyz
             ):
                 offset = " ".join(f"{component:g}" for component in xyz)
-                yield self.at(
-                    model,
-                    joint.element.find("origin") or joint.element,
-                    f"joint `{joint.name}` repeats the offset {offset} m of its parent joint `{parents[0].name}`",
-                    attribute="xyz",
-                    joint=joint.name,
-                    help="remove one of the offsets unless both are intended",
-                )
+                place = joint.element.find("origin") or joint.element
+                message = f"joint `{joint.name}` repeats the offset {offset} m of its parent joint `{parents[0].name}`"
+                help = "remove one of the offsets unless both are intended"
+                yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)

@@ -50,12 +50,7 @@ class OpticalFrame(RobotRule):
                 continue
             if same_turn(joint.origin.rpy, (-pi / 2, 0.0, -pi / 2)) > TOLERANCE:
                 rpy = " ".join(f"{angle:.4g}" for angle in joint.origin.rpy)
-                yield self.at(
-                    model,
-                    origin or joint.element,
-                    f"optical frame `{joint.child}` has rpy {rpy} rad instead of -π/2 0 -π/2",
-                    attribute="rpy",
-                    link=joint.child,
-                    joint=joint.name,
-                    help='write rpy="${-pi/2} 0 ${-pi/2}": z points forward, x right and y down',
-                )
+                place = origin or joint.element
+                message = f"optical frame `{joint.child}` has rpy {rpy} rad instead of -π/2 0 -π/2"
+                help = 'write rpy="${-pi/2} 0 ${-pi/2}": z points forward, x right and y down'
+                yield self.at(model, place, message, attribute="rpy", link=joint.child, joint=joint.name, help=help)

@@ -51,13 +51,10 @@ class XacroInPlainUrdf(SourceRule):
                 or ("${" in start_tag and re.search(r"\$\{[^{}]*\}", start_tag))
                 or (declares_prefix and _is_unprefixed_call(tag))
             ):
-                yield self.at(
-                    model,
-                    source.position(root.start),
-                    f"file requires xacro because of <{tag.name}> on line {source.position(tag.start).line}",
-                    attribute="xmlns:xacro" if declares_prefix else None,
-                    help=f"rename the file to {source.file.rpartition('/')[2]}.xacro",
-                )
+                message = f"file requires xacro because of <{tag.name}> on line {source.position(tag.start).line}"
+                attribute = "xmlns:xacro" if declares_prefix else None
+                help = f"rename the file to {source.file.rpartition('/')[2]}.xacro"
+                yield self.at(model, source.position(root.start), message, attribute=attribute, help=help)
                 return
 
 
