@@ -108,10 +108,8 @@ def _senseless_fan(fan: Element) -> Senseless:
     elif isfinite(samples) and samples != int(samples):
         yield fan.find("samples") or fan, f"<samples> is {samples:g}; it must be a whole number"
     elif resolution <= 0:
-        yield (
-            fan.find("resolution") or fan,
-            f"<resolution> is {resolution:g}; it must be greater than zero: it is multiplied with <samples>",
-        )
+        message = f"<resolution> is {resolution:g}; it must be greater than zero: it is multiplied with <samples>"
+        yield fan.find("resolution") or fan, message
     elif isfinite(samples * resolution) and round(samples * resolution) < 1:
         yield fan, f"<{fan.tag}> has {samples:g} samples at a resolution of {resolution:g}, which is less than one"
     low, high = _number(fan, "min_angle", 0.0), _number(fan, "max_angle", 0.0)
@@ -131,10 +129,8 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
     """
     angle = _number(camera, "horizontal_fov", 1.047)
     if not (0.0 < angle < pi or isnan(angle) or (is_wide and 0.0 < angle < _MAX_ANGLE)):
-        yield (
-            camera.find("horizontal_fov") or camera,
-            f"<horizontal_fov> is {angle:g} rad; it must be between 0 and {'2π' if is_wide else 'π'}",
-        )
+        message = f"<horizontal_fov> is {angle:g} rad; it must be between 0 and {'2π' if is_wide else 'π'}"
+        yield camera.find("horizontal_fov") or camera, message
     image, clip = camera.find("image"), camera.find("clip")
     for tag in ("width", "height"):
         pixels = _number(image, tag, 1.0)

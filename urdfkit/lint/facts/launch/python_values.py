@@ -192,10 +192,8 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
                 and reader.text(key) == "robot_description"
                 and (path := _description_path(each, reader))
             ):
-                yield (
-                    _value(each, reader),
-                    f"`robot_description` is the path of `{path}` and not its text; run xacro with `Command`",
-                )
+                message = f"`robot_description` is the path of `{path}` and not its text; run xacro with `Command`"
+                yield _value(each, reader), message
     for item in reader.items(words["arguments"]) if "arguments" in words else ():
         number = item.operand if isinstance(item, ast.UnaryOp) else item
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):

@@ -155,7 +155,5 @@ def _pipelines(
     name = reader.text(default) if default is not None else None
     if default is not None and name and written and None not in written and name not in written:
         hint = did_you_mean(name, [each for each in written if each])
-        yield (
-            source.span(*place(source, default)),
-            f"the default planning pipeline `{name}` is not in `pipelines`" + hint,
-        )
+        message = f"the default planning pipeline `{name}` is not in `pipelines`" + hint
+        yield source.span(*place(source, default)), message

@@ -71,11 +71,8 @@ def costmap_defects(model: Model) -> Defects:
                 )
                 yield source, item, message
             elif kind in _MARKING and (static := next((each for each, name in later if name == "StaticLayer"), None)):
-                yield (
-                    source,
-                    item,
-                    f"`{static.text}` is after `{item.text}` and overwrites its obstacles; move it first",
-                )
+                message = f"`{static.text}` is after `{item.text}` and overwrites its obstacles; move it first"
+                yield source, item, message
         window, static_map = group.find("rolling_window"), group.find("static_map")
         has_static_layer = any(kind == "StaticLayer" for _, kind in layers)
         is_static = has_static_layer or (static_map is not None and static_map.text not in _FALSE)

@@ -74,10 +74,8 @@ def filter_defects(group: Node, controllers: frozenset[str]) -> Iterator[tuple[N
             first, separator, rest = value.text.strip("/").partition("/")
             near = next((each for each in sorted(controllers) if is_slip(first, each)), None)
             if separator and first not in controllers and near is not None:
-                yield (
-                    value,
-                    f"no controller `{first}` publishes `{value.text}`" + Suggestion(f"{near}/{rest}", value.text),
-                )
+                message = f"no controller `{first}` publishes `{value.text}`" + Suggestion(f"{near}/{rest}", value.text)
+                yield value, message
 
 
 _COVARIANCES = ("process_noise_covariance", "initial_estimate_covariance")

@@ -207,11 +207,8 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
         wrong = [at for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
         fused = [AXES[at] for at in wrong]
         if fused:
-            yield (
-                each.source,
-                config.items[wrong[0]],
-                f"`{name}_config` fuses {', '.join(fused)}, which its messages do not contain",
-            )
+            message = f"`{name}_config` fuses {', '.join(fused)}, which its messages do not contain"
+            yield each.source, config.items[wrong[0]], message
         if is_second and topic.text.strip("/") in relative:
             message = (
                 f"`{name}_config` fuses x and y of drifting odometry in addition to `{{}}`; fuse its velocities instead"
@@ -224,11 +221,8 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
             None,
         )
         if node is not None:
-            yield (
-                each.source,
-                node,
-                "no input gives a position in the map frame; write false for an input that measures this position",
-            )
+            message = "no input gives a position in the map frame; write false for an input that measures this position"
+            yield each.source, node, message
 
 
 def _wheel_odometry(model: Model) -> set[str]:

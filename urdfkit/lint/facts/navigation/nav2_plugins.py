@@ -53,10 +53,8 @@ def _of_galactic(source: Source, key: Node, name: str, group: Node, has_behavior
     """Yield the plugins and the node of Galactic in a file of Humble or later."""
     if name == "recoveries_server":
         if "nav2_behaviors" in source.text and not has_behaviors:
-            yield (
-                key,
-                "node `recoveries_server` is from Galactic or earlier; its name since Humble is `behavior_server`",
-            )
+            message = "node `recoveries_server` is from Galactic or earlier; its name since Humble is `behavior_server`"
+            yield key, message
         return
     for plugin in (value for node in walk(group) if (value := node.find("plugin")) is not None):
         package, _, kind = plugin.text.replace("::", "/").partition("/")

@@ -194,11 +194,8 @@ def _mixed(source: Source) -> Defects:
     for plugin in found[few] if len(found[few]) < len(found[many]) else ():
         right = plugin.text.replace(few, many)
         release = "since Jazzy" if many == "::" else "up to Iron"
-        yield (
-            source,
-            plugin,
-            f"`{plugin.text}` and the other plugins are from different releases; {release}, write `{right}`",
-        )
+        message = f"`{plugin.text}` and the other plugins are from different releases; {release}, write `{right}`"
+        yield source, plugin, message
 
 
 def _costmap_topics(source: Source) -> Defects:

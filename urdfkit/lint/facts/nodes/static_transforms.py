@@ -81,10 +81,8 @@ def _of_options(arguments: tuple[Named | None, ...], model: Model) -> Iterator[t
         [word for _, word in options if word.name in _QUATERNION],
     )
     if all(mixed):
-        yield (
-            max((each[0] for each in mixed), key=lambda word: word.start),
-            "the rotation is written as Euler angles and as a quaternion; remove one of the two",
-        )
+        message = "the rotation is written as Euler angles and as a quaternion; remove one of the two"
+        yield max((each[0] for each in mixed), key=lambda word: word.start), message
         return
     angles = [values.get(name) for name in _ANGLES]
     yield from _angles(tuple(angle for angle in angles if angle is not None))
@@ -146,10 +144,8 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
     roots = model.robot.root_by_name
     is_reversed = names[0] in roots and re.fullmatch(_FIXED, names[1]) and not re.search(_FIXED, names[0])
     if child is not None and is_reversed and _is_placed(names[0], model):
-        yield (
-            child,
-            f"`{names[1]}` cannot be below `{names[0]}`, the root of robot `{model.robot.name}`; swap the frames",
-        )
+        message = f"`{names[1]}` cannot be below `{names[0]}`, the root of robot `{model.robot.name}`; swap the frames"
+        yield child, message
         return
     if parent is not None and names[0] and not _is_defined(parent, names[0], model):
         near = _meant(names[0], links)

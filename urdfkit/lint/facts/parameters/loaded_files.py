@@ -258,10 +258,8 @@ def pipelines_elsewhere(source: Source) -> Defects:
     for space in spaces.values() if is_plain and len(nodes) == 1 else ():
         if space.value.strip("/") not in names:
             (name,) = names
-            yield (
-                space,
-                f"node `{name}` reads planning pipelines from its own namespace" + Suggestion(name, space.value),
-            )
+            message = f"node `{name}` reads planning pipelines from its own namespace" + Suggestion(name, space.value)
+            yield space, message
 
 
 def _is_command(tag: Tag) -> bool:

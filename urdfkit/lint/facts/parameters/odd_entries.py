@@ -108,10 +108,8 @@ def _odd_names(name: str, values: list[Node]) -> Defects:
         if count[value.text] == 1 and len(value.text) > _SHORTEST and re.fullmatch(_NAME, value.text):
             near = next((text for text in usual if is_slip(value.text, text)), None)
             if near is not None:
-                yield (
-                    value,
-                    f"unknown `{name}` `{value.text}`, unlike the other sections" + Suggestion(near, value.text),
-                )
+                message = f"unknown `{name}` `{value.text}`, unlike the other sections" + Suggestion(near, value.text)
+                yield value, message
 
 
 def _odd_list(name: str, values: list[Node]) -> Defects:

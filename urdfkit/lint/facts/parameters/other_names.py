@@ -17,10 +17,8 @@ def renamed_in(owner: str, group: Node, names: Mapping[str, str]) -> Iterator[tu
     written = {key.text for key, _ in group.entries}
     found = [key for key, _ in group.entries if key.text in names and names[key.text] not in written]
     if len(found) == 1:
-        yield (
-            found[0],
-            f"`{owner}` has no parameter `{found[0].text}`" + Suggestion(names[found[0].text], found[0].text),
-        )
+        message = f"`{owner}` has no parameter `{found[0].text}`" + Suggestion(names[found[0].text], found[0].text)
+        yield found[0], message
     elif found:
         old, new = (
             ", ".join(f"`{each}`" for each in part)

@@ -32,11 +32,8 @@ def self_readers(model: Model) -> Defects:
         ]
         for old, new in node.remappings if pairs else ():
             if old.name.removeprefix("~").strip("/") in pairs[0] and not re.search(r"\$|[{}]", new.name):
-                yield (
-                    node.source,
-                    new,
-                    f"`{node.program}` publishes on `{new.name}` and subscribes to it, so it reads its own output",
-                )
+                message = f"`{node.program}` publishes on `{new.name}` and subscribes to it, so it reads its own output"
+                yield node.source, new, message
                 break
         yield from _of_parameters(node, topics, files)
 

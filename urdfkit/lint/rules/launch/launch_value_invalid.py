@@ -138,10 +138,8 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
         is_condition = name in _WHEN
         if attribute is not None and is_condition and re.search(_AROUND, attribute.value):
             what = "`$(eval …)`" if version == 1 else '`"$(eval …)"`'
-            yield (
-                attribute,
-                f"condition `{attribute.value}` is not evaluated, because other text surrounds it; write {what}",
-            )
+            message = f"condition `{attribute.value}` is not evaluated, because other text surrounds it; write {what}"
+            yield attribute, message
         if attribute is None or "$(" in attribute.value:
             continue
         words = _TRUTH if is_condition or version == 2 else ("true", "false")

@@ -112,10 +112,8 @@ def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node
     for key, _ in entry.settings.entries:
         near = nearest(key.text, [name for name in names if name not in written], cutoff=0.85)
         if key.text not in names and near is not None:
-            yield (
-                key,
-                f"unknown parameter `{key.text}` of {entry.kind} `{entry.name.text}`" + Suggestion(near, key.text),
-            )
+            message = f"unknown parameter `{key.text}` of {entry.kind} `{entry.name.text}`" + Suggestion(near, key.text)
+            yield key, message
 
 
 def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:

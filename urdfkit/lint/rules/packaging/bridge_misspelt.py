@@ -213,11 +213,8 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
         if topic in COMMON and suggestion is not None and suggestion not in COMMON:
             continue  # topic-misspelt reports the name in the description
         if suggestion is not None and _is_misspelling(topic, suggestion) and not _is_in_description(topic, model):
-            yield (
-                source,
-                bridge.topic,
-                f"the robot has no Gazebo topic `{bridge.topic.name}`" + Suggestion(suggestion, bridge.topic.name),
-            )
+            message = f"the robot has no Gazebo topic `{bridge.topic.name}`" + Suggestion(suggestion, bridge.topic.name)
+            yield source, bridge.topic, message
         elif bridge.direction is not None and topic in commands - others and direction in ("GZ_TO_ROS", "IGN_TO_ROS"):
             yield source, bridge.direction, f"`{topic}` is a command topic; bridge it from ROS to Gazebo"
         elif bridge.direction is not None and topic in others - commands and direction in ("ROS_TO_GZ", "ROS_TO_IGN"):

@@ -178,10 +178,8 @@ def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
         if joints is not None and is_flat and len(joints.items) != len(value.items):
             yield key, f"`positions` has {len(value.items)} values, but `joints` has {len(joints.items)} names"
         if re.fullmatch(_SENSOR_CONFIG, key.text) and value.kind == "list" and len(value.items) != 15:
-            yield (
-                _odd_row(value) or _last_row(value) or key,
-                f"`{key.text}` has {len(value.items)} values; robot_localization requires 15",
-            )
+            message = f"`{key.text}` has {len(value.items)} values; robot_localization requires 15"
+            yield _odd_row(value) or _last_row(value) or key, message
 
 
 def _odd_row(value: Node) -> Node | None:

@@ -197,11 +197,8 @@ def _invalid_arguments(node: Started, source: Source, model: Model) -> Iterator[
         if word is not None and option is not None and option[1] not in options:
             suggestion = _SYNONYMS[node.program].get(option[1]) or _nearest_option(option[1], options)
             if suggestion is not None:
-                yield (
-                    word.start,
-                    text,
-                    f"unknown option `{text}` of `{node.program}`" + Suggestion(f"-{suggestion}", text),
-                )
+                message = f"unknown option `{text}` of `{node.program}`" + Suggestion(f"-{suggestion}", text)
+                yield word.start, text, message
         elif word is not None and previous in ("topic", "param"):
             name = text.strip("/").rpartition("/")[2]
             near = nearest(name, [_DESCRIPTION], cutoff=0.7)
