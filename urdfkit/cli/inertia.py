@@ -182,10 +182,8 @@ def _write(
         if fixed_link is None or not _agree(
             fixed_link.inertial, compute_inertial(again, fixed_link, mass=value.mass, kind=value.kind)
         ):
-            raise UrdfkitError(
-                f"the inertia of link `{link.name}` would differ from the computed values; nothing was written",
-                position=link.element.origin.position,
-            )
+            message = f"the inertia of link `{link.name}` would differ from the computed values; nothing was written"
+            raise UrdfkitError(message, position=link.element.origin.position)
     for change in changed:
         change.write()
 

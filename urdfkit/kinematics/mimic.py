@@ -77,11 +77,9 @@ def _follow(joints: Mapping[str, Joint], joint: Joint, resolved: dict[str, Coupl
             break
         place = (at.mimic or joint.mimic).element.origin.position  # type: ignore[union-attr]
         if at.type not in _SINGLE:
-            raise KinematicsError(
-                f"joint `{at.name}` is used in a <mimic> but is {at.type}: "
-                "only revolute, continuous and prismatic joints support <mimic>",
-                position=place,
-            )
+            message = f"joint `{at.name}` is used in a <mimic> but is {at.type}: "
+            message += "only revolute, continuous and prismatic joints support <mimic>"
+            raise KinematicsError(message, position=place)
         if at.mimic is None:
             end = Coupling(at.name, at.name, 1.0, 0.0)
             break

@@ -107,10 +107,8 @@ def joint_model(joint: Joint) -> tuple[Any, Any]:
     axis = np.array(joint.axis, dtype=float)
     length = vector_norm(axis)
     if not np.isfinite(length) or length == 0.0:
-        raise KinematicsError(
-            f"joint `{joint.name}` has the axis {axis[0]:g} {axis[1]:g} {axis[2]:g}; it must not be zero",
-            position=joint.element.origin.position,
-        )
+        message = f"joint `{joint.name}` has the axis {axis[0]:g} {axis[1]:g} {axis[2]:g}; it must not be zero"
+        raise KinematicsError(message, position=joint.element.origin.position)
     axis /= length
     if joint.type == "planar":
         turn = pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis)

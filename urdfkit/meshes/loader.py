@@ -97,11 +97,8 @@ class MeshLoader:
             MissingDependencyError: trimesh is not installed.
         """
         if path.suffix.lower() not in FORMATS:
-            raise MeshError(
-                path,
-                f"has an unsupported format{did_you_mean(path.suffix, FORMATS)}; supported: {' '.join(FORMATS)}",
-                kind="format",
-            )
+            message = f"has an unsupported format{did_you_mean(path.suffix, FORMATS)}; supported: {' '.join(FORMATS)}"
+            raise MeshError(path, message, kind="format")
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
         is_stl = path.suffix.lower() == ".stl"

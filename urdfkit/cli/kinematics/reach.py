@@ -112,11 +112,9 @@ def run(arguments: argparse.Namespace) -> int:
         check_file(arguments.output)
     chain = Chain(robot, arguments.base, tip, compiling=None if arguments.quiet else announce)
     if len(chain.joint_names) < 6 and not arguments.position_only and not arguments.quiet:
-        print(
-            f"urdfkit: warning: {len(chain.joint_names)} joints move `{tip}`; with fewer than six it reaches few "
-            "orientations; use --position-only",
-            file=sys.stderr,
-        )
+        message = f"urdfkit: warning: {len(chain.joint_names)} joints move `{tip}`; with fewer than six it reaches few "
+        message += "orientations; use --position-only"
+        print(message, file=sys.stderr)
     with ProgressLine(quiet=arguments.quiet) as progress:
         search: dict[str, Any] = {
             "position_only": arguments.position_only,

@@ -140,10 +140,8 @@ class Run:
 
             count = write(arguments.write_baseline, outcome.findings)
             if not arguments.quiet:
-                print(
-                    f"urdfkit: wrote {count} finding{'s' if count != 1 else ''} to {arguments.write_baseline}",
-                    file=sys.stderr,
-                )
+                message = f"urdfkit: wrote {count} finding{'s' if count != 1 else ''} to {arguments.write_baseline}"
+                print(message, file=sys.stderr)
             return 2 if refused else 0
         if refused and not whole.files and arguments.format == "text":
             return 2  # nothing was linted

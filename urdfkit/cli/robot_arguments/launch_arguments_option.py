@@ -56,18 +56,14 @@ def _report(choice: Choice, purpose: str, model: ModelArgument) -> None:
 
     for launch, passed in choice.chosen.items():
         words = " ".join(f"{name}:={value}" for name, value in passed.items())
-        print(
-            f"urdfkit: xacro arguments of {shown_path(launch)}: {words} (--no-launch-arguments ignores them)",
-            file=sys.stderr,
-        )
+        message = f"urdfkit: xacro arguments of {shown_path(launch)}: {words} (--no-launch-arguments ignores them)"
+        print(message, file=sys.stderr)
     if choice.conflicts:
         values = [
             " and ".join(f"{name}:={value} ({shown_path(launch)})" for value, launch in by_value.items())
             for name, by_value in choice.conflicts.items()
         ]
         one = " ".join(f"{name}:={next(iter(by_value))}" for name, by_value in choice.conflicts.items())
-        print(
-            f"urdfkit: warning: the {purpose} launch files pass different xacro arguments to "
-            f"{shown_path(model.path)}, and none is used: {'; '.join(values)}; choose one, such as {one}",
-            file=sys.stderr,
-        )
+        message = f"urdfkit: warning: the {purpose} launch files pass different xacro arguments to "
+        message += f"{shown_path(model.path)}, and none is used: {'; '.join(values)}; choose one, such as {one}"
+        print(message, file=sys.stderr)

@@ -118,16 +118,12 @@ def run(arguments: argparse.Namespace) -> int:
         )
     print(json.dumps(_as_json(found)) if arguments.json else found.summary())
     if not arguments.quiet:
-        print(
-            f"urdfkit: {len(found.rows)} runs in {found.folder}: results.csv, results.parquet and plots",
-            file=sys.stderr,
-        )
+        message = f"urdfkit: {len(found.rows)} runs in {found.folder}: results.csv, results.parquet and plots"
+        print(message, file=sys.stderr)
         if found.failed:
             first = found.failed[0]
-            print(
-                f"urdfkit: warning: {len(found.failed)} runs failed; run {first['run']}: {first['error']}",
-                file=sys.stderr,
-            )
+            message = f"urdfkit: warning: {len(found.failed)} runs failed; run {first['run']}: {first['error']}"
+            print(message, file=sys.stderr)
     return 1 if found.failed else 0
 
 

@@ -78,10 +78,8 @@ class Scope:
         if taken is not None:
             if taken.kind == kind or (strict and taken.strict):
                 advice = "; give one of them another <name>" if kind == taken.kind == "model" else ""
-                raise DescriptionError(
-                    f"{self.owner} already has a {taken.kind} `{name}` (line {taken.raw.position.line}){advice}",
-                    position=raw.position,
-                )
+                message = f"{self.owner} already has a {taken.kind} `{name}` (line {taken.raw.position.line}){advice}"
+                raise DescriptionError(message, position=raw.position)
             return
         base = default or self.root
         self._frames[name] = _Frame(kind, raw, raw.relative_to or base, base, placement, strict)

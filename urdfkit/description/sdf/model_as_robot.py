@@ -237,11 +237,9 @@ def _written(limit: float) -> float | None:
 
 def _axis_of(model: WorldModel, joint: WorldJoint) -> WorldAxis:
     if joint.type not in MOVES:
-        raise SimulationError(
-            f"joint `{joint.name}` of model `{model.name}` is {joint.type}, which cannot be simulated: "
-            f"{', '.join(('fixed', *MOVES))} can",
-            position=joint.position,
-        )
+        message = f"joint `{joint.name}` of model `{model.name}` is {joint.type}, which cannot be simulated: "
+        message += f"{', '.join(('fixed', *MOVES))} can"
+        raise SimulationError(message, position=joint.position)
     axis = joint.axes[0]
     if axis.spring_stiffness:
         raise SimulationError(

@@ -265,7 +265,5 @@ def check_doctype(source: Source, parser: Any, system: str | None, public: str |
         XmlError: the document type is external.
     """
     if system or public:
-        raise XmlError(
-            f"the document type names `{system or public}`: external entities are rejected",
-            position=_here(source, parser),
-        )
+        message = f"the document type names `{system or public}`: external entities are rejected"
+        raise XmlError(message, position=_here(source, parser))

@@ -162,11 +162,9 @@ def _alone(model: Model, link: Link, element: Element) -> Tag:
     if len(same) > 1:
         chain = element.origin.expansions
         macro = f"macro `{chain[0].macro}`" if chain else "a place"
-        raise UrdfkitError(
-            f"<{element.tag}> of link `{link.name}` is written in {macro} that has {len(same)} expansions: "
-            f"give the macro parameters for it, or write <inertial> into the link",
-            position=position,
-        )
+        message = f"<{element.tag}> of link `{link.name}` is written in {macro} that has {len(same)} expansions: "
+        message += "give the macro parameters for it, or write <inertial> into the link"
+        raise UrdfkitError(message, position=position)
     tag = model.tag(position)
     if tag is None or tag.name != element.tag:
         raise UrdfkitError(f"<{element.tag}> of link `{link.name}` is not written at this position", position=position)

@@ -94,10 +94,8 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
     why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
     advice = "or fix it to a link that has them" if joint is not None else "or fix the robot with --fixed-base"
     problem = "has no <inertial>" if link.inertial is None else "has no mass or no moment of inertia"
-    raise SimulationError(
-        f"link `{link.name}` {problem}, but {why}: add <inertial> with <mass> and <inertia>, {advice}",
-        position=link.element.origin.position,
-    )
+    message = f"link `{link.name}` {problem}, but {why}: add <inertial> with <mass> and <inertia>, {advice}"
+    raise SimulationError(message, position=link.element.origin.position)
 
 
 def is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:

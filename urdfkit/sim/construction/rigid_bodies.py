@@ -36,10 +36,8 @@ def require_no_joints(world: World) -> None:
         SimulationError: a joint connects two models; with its place.
     """
     for joint in world.joints:
-        raise SimulationError(
-            f"joint `{joint.name}` of the world cannot be simulated: joints must connect links of the same model",
-            position=joint.position,
-        )
+        message = f"joint `{joint.name}` of the world cannot be simulated: joints must connect links of the same model"
+        raise SimulationError(message, position=joint.position)
 
 
 def parts_of(model: WorldModel) -> Iterator[tuple[str, bool, list[Placed]]]:

@@ -47,11 +47,8 @@ class Topics:
         if not TOPIC.fullmatch(found):
             texts = ((each.text.rpartition(":=")[2].strip(), each) for each in self._element.walk())
             written = (each for text, each in texts if text in found and not TOPIC.fullmatch(text))
-            raise SimulationError(
-                f"`{found}` is not a valid topic name: use letters, digits, _ and /",
-                position=next(written, self._element).origin.position,
-                code="Z830",
-            )
+            message = f"`{found}` is not a valid topic name: use letters, digits, _ and /"
+            raise SimulationError(message, position=next(written, self._element).origin.position, code="Z830")
         return found
 
     def _below(self, name: str) -> str:

@@ -59,10 +59,8 @@ def read_gains(settings: Settings, path: str, note: Callable[[str], None]) -> Ga
     for name, gain in (("p", gains.p), ("i", gains.i), ("d", gains.d)):
         if gain < 0.0:
             where = group.find(name)
-            raise SimulationError(
-                f"gain `{name}` of `{path}` is {gain:g}; a negative gain drives the joint away from its target",
-                position=(where or group).position,
-            )
+            message = f"gain `{name}` of `{path}` is {gain:g}; a negative gain drives the joint away from its target"
+            raise SimulationError(message, position=(where or group).position)
     if gains.i and not gains.integrates:
         note(f"{group.place.file}: `i` has no effect without `i_clamp`, which defaults to 0")
     return gains

@@ -68,10 +68,8 @@ class WorldBuilder:
         sources: list[WorldModel | WorldRobot] = [*world.models, *world.robots]
         for source in sources:
             if source.name == first.name:
-                raise SimulationError(
-                    f"the world already has a model `{source.name}`; use another name for the robot",
-                    position=source.position,
-                )
+                message = f"the world already has a model `{source.name}`; use another name for the robot"
+                raise SimulationError(message, position=source.position)
             self.entities[source.name] = self._make(source)
         self.build()
 

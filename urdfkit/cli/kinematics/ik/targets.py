@@ -57,11 +57,9 @@ def pose_of(arguments: argparse.Namespace) -> list[float] | None:
     if arguments.rpy is not None:
         rpy = numbers(arguments.rpy, 3, "--rpy")
         if abs(largest := max(rpy, key=abs)) > TURN:
-            print(
-                f"urdfkit: warning: --rpy {arguments.rpy}: {largest:g} rad is more than one full turn; "
-                f"if it is in degrees, use {','.join(f'{math.radians(angle):.6g}' for angle in rpy)}",
-                file=sys.stderr,
-            )
+            message = f"urdfkit: warning: --rpy {arguments.rpy}: {largest:g} rad is more than one full turn; "
+            message += f"if it is in degrees, use {','.join(f'{math.radians(angle):.6g}' for angle in rpy)}"
+            print(message, file=sys.stderr)
         return [*xyz, *quaternion_of(rpy)]
     quaternion = numbers(arguments.quat, 4, "--quat") if arguments.quat is not None else [0.0, 0.0, 0.0, 1.0]
     length = math.hypot(*quaternion)

@@ -225,10 +225,8 @@ def _physics(context: Context, element: Element) -> Physics:
         )
     pace = scalar(element, "real_time_factor", default.real_time_factor)
     if pace not in (0, default.real_time_factor):
-        context.note(
-            element.find("real_time_factor") or element,
-            f"<real_time_factor> {pace:g} is kept but ignored: teleop runs in real time",
-        )
+        message = f"<real_time_factor> {pace:g} is kept but ignored: teleop runs in real time"
+        context.note(element.find("real_time_factor") or element, message)
     return Physics(
         step,
         pace,

@@ -31,11 +31,8 @@ class _GzJoint:
         self.setup = setup
         names = read.texts("joints")
         if not names:
-            raise SimulationError(
-                f"<{read.tag('joints')}> is missing: it names the joint to control",
-                position=read.place("joints"),
-                code="Z831",
-            )
+            message = f"<{read.tag('joints')}> is missing: it names the joint to control"
+            raise SimulationError(message, position=read.place("joints"), code="Z831")
         place = read.place("joints")
         joints = setup.kinematics.robot.joint_by_name
         self.handles = [JointHandle(setup.kinematics, joints[setup.joint(name, place)]) for name in names]

@@ -117,12 +117,9 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
     if not interfaces:
         interfaces = tuple(kind for actuator in transmission.actuators for kind in actuator.hardware_interfaces)
         if not interfaces:
-            raise SimulationError(
-                f"transmission `{name}` lacks <hardwareInterface> in its <joint>, "
-                "such as hardware_interface/EffortJointInterface",
-                position=joint.element.origin.position,
-                code="C702",
-            )
+            message = f"transmission `{name}` lacks <hardwareInterface> in its <joint>, "
+            message += "such as hardware_interface/EffortJointInterface"
+            raise SimulationError(message, position=joint.element.origin.position, code="C702")
         setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs in <joint>, not <actuator>")
     kind = interfaces[0].strip().removeprefix("hardware_interface/")
     place = (joint.element.find("hardwareInterface") or joint.element).origin.position

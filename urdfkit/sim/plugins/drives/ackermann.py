@@ -100,10 +100,8 @@ class Ackermann(VelocityDrive):
         rear = [(left + right) / 2 for left, right in zip(rear_left, rear_right, strict=True)]
         self._base = dist(front, rear)
         if self._track <= 0 or self._base <= 0:
-            raise SimulationError(
-                f"the wheels are {self._track:g} m apart and the axles {self._base:g} m; both must be positive",
-                position=read.place("front_left_joint"),
-            )
+            message = f"the wheels are {self._track:g} m apart and the axles {self._base:g} m; both must be positive"
+            raise SimulationError(message, position=read.place("front_left_joint"))
         self._radius = wheel_radius(
             setup.kinematics.robot, self._joints["rear_right_joint"], read.place("rear_right_joint")
         )

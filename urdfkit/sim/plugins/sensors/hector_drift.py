@@ -88,10 +88,8 @@ def drifting(
             else np.array(read.vector(prefix + meaning, size))
         )
         if least is not None and (found < least).any():
-            raise SimulationError(
-                f"<{read.tag(prefix + meaning)}> is `{text}`; it must be {least:g} or greater",
-                position=read.place(prefix + meaning),
-            )
+            message = f"<{read.tag(prefix + meaning)}> is `{text}`; it must be {least:g} or greater"
+            raise SimulationError(message, position=read.place(prefix + meaning))
         return found
 
     return Drifting(

@@ -70,10 +70,8 @@ class LinkSensor(Sensor):
         else:
             self.link = read.text("body") or setup.kinematics.root
             if self.link not in (links := setup.kinematics.link_names):
-                raise SimulationError(
-                    f"<{read.tag('body')}> is `{self.link}`, which is not a link" + did_you_mean(self.link, links),
-                    position=read.place("body"),
-                )
+                message = f"<{read.tag('body')}> is `{self.link}`, which is not a link" + did_you_mean(self.link, links)
+                raise SimulationError(message, position=read.place("body"))
             self._mount = np.eye(4)
         self.rate = rate_of(None if sensor is None else sensor.element, read)
         frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
@@ -150,17 +148,12 @@ def carrier(setup: Setup) -> str:
         return setup.link
     place = setup.sensor.element.origin.position
     if not setup.link:
-        raise SimulationError(
-            "a sensor must be in the <gazebo reference=…> of a link; this <gazebo> has no reference",
-            position=place,
-            code="Z801",
-        )
+        message = "a sensor must be in the <gazebo reference=…> of a link; this <gazebo> has no reference"
+        raise SimulationError(message, position=place, code="Z801")
     if setup.link not in setup.kinematics.robot.joint_by_name:
         blocks = setup.kinematics.robot.gazebo
         place = next((each.element.origin.position for each in blocks if setup.sensor in each.sensors), place)
-    raise SimulationError(
-        "a sensor must be in the <gazebo reference=…> of a link; "
-        f"`{setup.link}` is not a link" + did_you_mean(setup.link, links),
-        position=place,
-        code="Z801",
+    message = f"a sensor must be in the <gazebo reference=…> of a link; `{setup.link}` is not a link" + did_you_mean(
+        setup.link, links
     )
+    raise SimulationError(message, position=place, code="Z801")

@@ -54,11 +54,8 @@ def noise_of(parent: Element | None, random: np.random.Generator) -> Noise:
     written = element.find("type")
     kind = (written.text if written is not None else element.get("type")) or "none"
     if kind not in NOISES:
-        raise SimulationError(
-            f"the type of the noise is `{kind}`; it must be {', '.join(NOISES)}" + did_you_mean(kind, NOISES),
-            position=(written or element).origin.position,
-            code="Z823",
-        )
+        message = f"the type of the noise is `{kind}`; it must be {', '.join(NOISES)}" + did_you_mean(kind, NOISES)
+        raise SimulationError(message, position=(written or element).origin.position, code="Z823")
     if kind == "none":
         return Noise()
     bias = float(random.normal(number(element, "bias_mean", 0.0), number(element, "bias_stddev", 0.0, least=0.0)))

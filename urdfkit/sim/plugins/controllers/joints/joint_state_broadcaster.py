@@ -35,10 +35,8 @@ class JointStatePublisher(RosController):
             rate = self.settings.number("publish_rate")
             if rate <= 0:
                 where = self.settings.find("publish_rate")
-                raise DescriptionError(
-                    f"`publish_rate` is {rate:g} Hz; it must be greater than zero",
-                    position=(where or self.settings).position,
-                )
+                message = f"`publish_rate` is {rate:g} Hz; it must be greater than zero"
+                raise DescriptionError(message, position=(where or self.settings).position)
             self._joints = tuple(sorted(hardware.joints))
             topic = hardware.resolve("joint_states")
         else:

@@ -80,11 +80,9 @@ class DiffDriveController(WheeledBase):
         separation = separation or self._measured_separation()
         if not (radius := radius or self.radius(self._left[0])):
             wheel = self._left[0].handle.name
-            raise DescriptionError(
-                f"`wheel_radius` is missing, and the wheel of joint `{wheel}` has no cylinder or sphere as its "
-                "collision shape",
-                position=read.place,
-            )
+            message = f"`wheel_radius` is missing, and the wheel of joint `{wheel}` has no cylinder or sphere as its "
+            message += "collision shape"
+            raise DescriptionError(message, position=read.place)
         both = read.number("wheel_radius_multiplier", 1.0)
         self._separation = separation * read.number("wheel_separation_multiplier", 1.0)
         self._left_radius = radius * read.number("left_wheel_radius_multiplier", both)

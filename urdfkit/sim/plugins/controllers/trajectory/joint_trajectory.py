@@ -94,10 +94,8 @@ class TrajectoryFollower(RosController):
             self.settings.text("command_interfaces")
         for entry in entries:
             if entry.value not in (*INTERFACES, "acceleration"):
-                raise DescriptionError(
-                    f"unknown interface `{entry.value}`" + did_you_mean(entry.value or "", INTERFACES),
-                    position=entry.position,
-                )
+                message = f"unknown interface `{entry.value}`" + did_you_mean(entry.value or "", INTERFACES)
+                raise DescriptionError(message, position=entry.position)
         named = [entry.value for entry in entries]
         chosen = next((kind for kind in INTERFACES if kind in named), None)
         if chosen is None:
@@ -111,10 +109,8 @@ class TrajectoryFollower(RosController):
         gains = read_gains(self.settings, f"gains/{name}", self.hardware.setup.note)
         if gains is None:
             if self._interface == "effort":
-                raise DescriptionError(
-                    f"`{self.name}` has no `gains/{name}`, which the effort interface needs",
-                    position=self.settings.place,
-                )
+                message = f"`{self.name}` has no `gains/{name}`, which the effort interface needs"
+                raise DescriptionError(message, position=self.settings.place)
             gains = Gains(0.0)
         return JointPid(output.handle, gains, output.limits if self._interface == "effort" else None)
 

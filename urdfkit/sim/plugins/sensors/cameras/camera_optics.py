@@ -100,10 +100,8 @@ def optics_of(camera: Element) -> Optics:
     lens = Lens(int(width), int(height), angle, distortion)
     samples = number(image, "anti_aliasing", 1.0, least=0.0)
     if samples != int(samples) or samples > MAX_SAMPLES:
-        raise SimulationError(
-            f"<anti_aliasing> is {samples:g}; it must be a whole number of samples, at most {MAX_SAMPLES}",
-            position=(image or camera).origin.position,
-        )
+        message = f"<anti_aliasing> is {samples:g}; it must be a whole number of samples, at most {MAX_SAMPLES}"
+        raise SimulationError(message, position=(image or camera).origin.position)
     return Optics(lens, _encoding(image), near, far, max(1, int(samples)), camera)
 
 

@@ -34,10 +34,8 @@ class GzLogicalCamera(SceneSensor):
             number(inside, tag, default, least=0.0) for tag, default in (("near", 0.0), ("far", 1.0))
         )
         if self._near >= self._far:
-            raise SimulationError(
-                f"the range of a logical camera, {self._near:g} m to {self._far:g} m, is empty",
-                position=(inside or sensor.element).origin.position,
-            )
+            message = f"the range of a logical camera, {self._near:g} m to {self._far:g} m, is empty"
+            raise SimulationError(message, position=(inside or sensor.element).origin.position)
         self._across = tan(number(inside, "horizontal_fov", 1.0, least=0.0) / 2)
         self._aspect = number(inside, "aspect_ratio", 1.0, least=1e-9)
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), GZ_LOGICAL_IMAGE),)

@@ -42,10 +42,8 @@ class Contacts(Sensor):
         """
         sensor = setup.sensor
         if sensor is None or setup.surroundings is None:
-            raise SimulationError(
-                "a contact sensor plugin must be in the <sensor> of a link",
-                position=self.plugin.element.origin.position,
-            )
+            message = "a contact sensor plugin must be in the <sensor> of a link"
+            raise SimulationError(message, position=self.plugin.element.origin.position)
         link = carrier(setup)
         self.name = sensor.name or "sensor"
         read = self.parameters(setup, link=link, sensor=self.name)
@@ -189,10 +187,8 @@ class GzTouch(Sensor):
             if sensor.type == "contact"
         ]
         if not sensors:
-            raise SimulationError(
-                "the touch plugin needs a <sensor> of type contact in its model",
-                position=self.plugin.element.origin.position,
-            )
+            message = "the touch plugin needs a <sensor> of type contact in its model"
+            raise SimulationError(message, position=self.plugin.element.origin.position)
         self.name = self.plugin.name or "touch"
         self._target, self._time = read.text("target"), read.number("time")
         self._starts_enabled = self._enabled = read.flag("enabled")

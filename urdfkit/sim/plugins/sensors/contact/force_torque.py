@@ -175,10 +175,8 @@ class JointForceTorque(ForceTorque):
         read = self.parameters(setup)
         place = self.plugin.element.origin.position
         if self.plugin.element.find("body_name") is not None and self.spec.generation == "ros2":
-            raise SimulationError(
-                "gazebo_ros_ft_sensor on a link (<body_name>) is not simulated: name a joint in <joint_name>",
-                position=read.place("body"),
-            )
+            message = "gazebo_ros_ft_sensor on a link (<body_name>) is not simulated: name a joint in <joint_name>"
+            raise SimulationError(message, position=read.place("body"))
         if not read.text("joint"):
             raise SimulationError(f"gazebo_ros_ft_sensor has no <{read.tag('joint')}>", position=place)
         if self.spec.generation == "ros1" and not read.text("topic"):
@@ -229,10 +227,8 @@ class GzForceTorque(ForceTorque):
         child: Element | None = None if inside is None else inside.find(tag)
         text = "" if child is None else child.text
         if child is not None and text and text not in allowed:
-            raise SimulationError(
-                f"<{tag}> is `{text}`; it must be {', '.join(allowed)}" + did_you_mean(text, allowed),
-                position=child.origin.position,
-            )
+            message = f"<{tag}> is `{text}`; it must be {', '.join(allowed)}" + did_you_mean(text, allowed)
+            raise SimulationError(message, position=child.origin.position)
         return text or default
 
     def _axes(self, now: KinematicSnapshot) -> Array:

@@ -36,10 +36,8 @@ class P3d(Sensor):
         links = setup.kinematics.link_names
         self._link = read.text("body")
         if self._link not in links:
-            raise SimulationError(
-                f"<{read.tag('body')}> is `{self._link}`, which is not a link" + did_you_mean(self._link, links),
-                position=read.place("body"),
-            )
+            message = f"<{read.tag('body')}> is `{self._link}`, which is not a link" + did_you_mean(self._link, links)
+            raise SimulationError(message, position=read.place("body"))
         self._frame = read.text("frame").lstrip("/")
         if self._frame not in (*WORLD, *links):
             raise SimulationError(
