@@ -38,7 +38,8 @@ def found(folder, code, **changes):
         (folder / file).write_text(text.replace("</launch>", changes.get("node", "") + "</launch>"))
     for name, text in code.items():
         (folder / name).write_text(text)
-    return [(one.code, one.line) for one in lint(folder, target="ros2") if one.file.endswith((".yaml", ".xml"))]
+    findings = [one for one in lint(folder, target="ros2") if one.code != "K956"]
+    return [(one.code, one.line) for one in findings if one.file.endswith((".yaml", ".xml"))]
 
 
 @pytest.mark.parametrize("code", [{"guard.py": PYTHON}, {"guard.cpp": CPP.replace("PUBLISHER", "")}])
@@ -93,3 +94,97 @@ def test_the_remapped_input_of_an_own_node_needs_a_publisher(tmp_path, code, top
     node = f'  <node pkg="cart" exec="guard" name="ahead">\n    <remap from="ahead" to="{topic}"/>\n  </node>\n{more}'
     reported = found(tmp_path, code, slam="scan_topic: /scan", node=node)
     assert [each for each in reported if each[0] == "K977"] == expected
+
+
+GUARD = """import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import Bool
+
+class Guard(Node):
+    def __init__(self):
+        super().__init__("guard")
+        self.declare_parameter("input", "cmd_raw")
+        topic = self.get_parameter("input").value
+        self.create_subscription(Twist, topic, self.on_command, 1)
+        self.stop = self.create_publisher(Bool, "~/stopped", 1)
+"""
+FOLLOWER = """import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import Bool
+
+TOPIC = "cmd_raw"
+
+class Follower(Node):
+    def __init__(self):
+        super().__init__("follower")
+        self.out = self.create_publisher(Twist, TOPIC, 1)
+        self.create_subscription(Bool, "guard/stopped", self.on_stop, 1)
+"""
+FOLLOWER_IN_CPP = """#include "rclcpp/rclcpp.hpp"
+Follower::Follower() : Node("follower") {
+  out_ = create_publisher<geometry_msgs::msg::Twist>("cmd_raw", 1);
+  stop_ = create_subscription<std_msgs::msg::Bool>("guard/stopped", 1, on_stop);
+}
+"""
+SECTION = "guard:\n  ros__parameters:\n    input: cmd_raw\n"
+BOTH = '<node pkg="cart" exec="follower"/>\n'
+
+
+def in_code(folder, guard=GUARD, follower=FOLLOWER, section="", name="follower.py"):
+    """Return file, line and message of the findings of two nodes that exchange commands and a flag."""
+    (folder / "cart.urdf").write_text(ROBOT)
+    for file, text in FILES.items():
+        (folder / file).write_text(text.replace("<launch>", NODE + BOTH))
+    (folder / "guard.py").write_text(guard)
+    (folder / name).write_text(follower)
+    (folder / "guard.yaml").write_text(section or "{}\n")
+    findings = [one for one in lint(folder, target="ros2") if one.code in ("K980", "K985")]
+    return [(one.file.rpartition("/")[2], one.line, one.message) for one in findings]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"section": SECTION},
+        {"follower": FOLLOWER_IN_CPP, "name": "follower.cpp"},
+        {"guard": GUARD.replace('"cmd_raw"', '"cmd_in"'), "section": SECTION},
+        {"guard": GUARD.replace("(Twist, topic", "(Twist, other()")},
+        {"follower": FOLLOWER.replace("Bool, ", "Int8, ").replace("guard/stopped", "count")},
+    ],
+)
+def test_own_nodes_that_exchange_messages_are_silent(tmp_path, changes):
+    assert in_code(tmp_path, **changes) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        (
+            {"follower": FOLLOWER.replace("cmd_raw", "cmd_line"), "section": SECTION},
+            ("follower.py", 6, "no node subscribes to the Twist messages on `cmd_line`; did you mean `cmd_raw`?"),
+        ),
+        (
+            {"section": SECTION.replace("cmd_raw", "cmd_line")},
+            ("guard.yaml", 3, "no node publishes the Twist messages on `cmd_line`; did you mean `cmd_raw`?"),
+        ),
+        (
+            {"follower": FOLLOWER.replace("guard/stopped", "guard/halted")},
+            ("follower.py", 12, "no node publishes the Bool messages on `guard/halted`; did you mean `guard/stopped`?"),
+        ),
+        (
+            {"follower": FOLLOWER_IN_CPP.replace("guard/stopped", "guard/halted"), "name": "follower.cpp"},
+            ("follower.cpp", 4, "no node publishes the Bool messages on `guard/halted`; did you mean `guard/stopped`"),
+        ),
+        (
+            {"follower": FOLLOWER.replace("Bool, ", "Int8, ")},
+            ("follower.py", 12, "`guard/stopped` has Bool messages, but its subscriber expects Int8 messages"),
+        ),
+    ],
+)
+def test_own_nodes_on_different_topics_are_reported_once(tmp_path, changes, expected):
+    (reported,) = in_code(tmp_path, **changes)
+    assert reported[:2] == expected[:2]
+    assert reported[2].startswith(expected[2])

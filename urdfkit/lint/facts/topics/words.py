@@ -57,6 +57,16 @@ class Words:
                     return True
         return self.match(pattern.pattern, without_rviz)
 
+    def places_of(self, topic: str) -> int:
+        """Return in how many places the files and the code name a whole topic, except as a frame or a type."""
+        pattern = re.compile(rf"(?<![\w/~.-])(?:~/|/)?{re.escape(topic)}(?![\w/])")
+        sources = {**self._model.expanded.sources, **self._model.related_files}
+        texts = [*(source.text for source in sources.values()), *self._code]
+        found = ((text, at.start()) for text in texts for at in pattern.finditer(text))
+        lines = ((text[max(text.rfind("\n", 0, start), start - 60, 0) : start]) for text, start in found)
+        count = sum(not re.search(_NO_TOPIC, before, re.IGNORECASE) for before in lines)
+        return count + 1000 * self._is_cut
+
     def match(self, pattern: str, without_rviz: bool = False) -> bool:
         """Return whether the code, a world or another file besides the related ones matches a pattern."""
         texts = self._code_without_rviz if without_rviz else self._code

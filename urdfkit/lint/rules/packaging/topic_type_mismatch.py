@@ -10,7 +10,8 @@ class TopicTypeMismatch(RobotRule):
     Compares the inputs of robot_localization, the observation sources of costmaps, ``scan_topic``, ``odom_topic``,
     ``point_cloud_topic`` and ``image_topic`` with the types of topics that bridges, sensors, controllers and filters
     publish. Also compares the flags for stamped velocity commands of the publisher and the subscriber of a topic, for
-    Nav2, twist_mux, teleop_twist_joy and drive controllers.
+    Nav2, twist_mux, teleop_twist_joy and drive controllers. The subscribers in the code of the workspace are compared
+    with the publishers of their topics.
 
     ## Why is this bad?
     ROS connects only publishers and subscribers of the same type, so the node receives no messages and reports no
@@ -40,10 +41,13 @@ class TopicTypeMismatch(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter with a topic or a flag of another type."""
         from urdfkit.lint.facts.topics.message_types import mistyped, unequal_stamps
+        from urdfkit.lint.facts.topics.own_pairs import mistyped_in_code
 
         for span, message, element, is_wrong in mistyped(model):
             place = model.span(element.origin.position) if element is not None else None
             cause = "type" if is_wrong else ""
             yield self.at_span(span, message, other=place, is_other_wrong=is_wrong, cause=cause)
+        for end, message in mistyped_in_code(model):
+            yield self.at_span(end.source.span(end.start, end.end), message)
         for span, message in unequal_stamps(model):
             yield self.at_span(span, message)

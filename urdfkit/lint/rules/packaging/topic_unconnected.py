@@ -21,6 +21,10 @@ class TopicUnconnected(RobotRule):
     Also reports velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
     ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
 
+    In the code of the nodes of the workspace, also reports a publisher or subscriber on a topic that no other node has,
+    if one other node has messages of this type on a topic without a counterpart. The topics that parameters, YAML files
+    and remappings set count.
+
     ## Why is this bad?
     The robot does not move, and no node reports an error.
 
@@ -47,6 +51,7 @@ class TopicUnconnected(RobotRule):
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
         from urdfkit.lint.facts.topics.node_topics import published_commands
         from urdfkit.lint.facts.topics.other_sides import other_side
+        from urdfkit.lint.facts.topics.own_pairs import unpaired
         from urdfkit.lint.facts.topics.own_remappings import misnamed_in_code
         from urdfkit.lint.facts.topics.velocity_commands import misnamed_remappings, unfed_mux_topics, unread_commands
 
@@ -69,5 +74,8 @@ class TopicUnconnected(RobotRule):
             yield self.at_span(span, message, kind="namespace", names=(topic,))
         for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
+        for end, message in unpaired(model):
+            names = (end.topic,)
+            yield self.at_span(end.source.span(end.start, end.end), message, kind="own", names=names)
         for source, value, near, message in unfed_mux_topics(model):
             yield self.at_span(span_of(source, value), message, names=(near,))
