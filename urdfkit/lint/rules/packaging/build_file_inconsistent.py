@@ -2,6 +2,7 @@
 
 import re
 from itertools import pairwise
+from typing import Any
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
@@ -88,7 +89,9 @@ class BuildFileInconsistent(RobotRule):
                 yield from self._setup(files, files.setup)
                 defects = list(setup_defects(files, files.setup, paths))
             for defect in defects:
-                yield self._at(defect.source, defect.start, defect.text, defect.message, defect.severity, defect.kind)
+                yield self._at(
+                    defect.source, defect.start, defect.text, defect.message, defect.severity, kind=defect.kind
+                )
             if broken is None:
                 yield from self._folders(files, folders)
                 yield from self._programs(model, files)
@@ -189,7 +192,7 @@ class BuildFileInconsistent(RobotRule):
             last, place = installs[0].folders[-1] if installs else ("data_files", start)
             message = f"folder `{folder}` is not installed, but {use}"
             severity: Severity = "note" if is_catkin else "warning"
-            yield self._at(source, place, last, message, severity, "folder")
+            yield self._at(source, place, last, message, severity, kind="folder")
 
     def _programs(self, model: Model, files: BuildFiles) -> Findings:
         """Yield a finding for each script that launch files start and that CMakeLists.txt does not install."""
@@ -213,17 +216,9 @@ class BuildFileInconsistent(RobotRule):
                 yield self._at(source, installs[0].start, installs[0].name, message, severity)
 
     def _at(
-        self,
-        source: Source,
-        start: int,
-        text: str,
-        message: str,
-        severity: Severity = "error",
-        kind: str = "",
-        names: tuple[str, ...] = (),
+        self, source: Source, start: int, text: str, message: str, severity: Severity = "error", **details: Any
     ) -> Finding:
-        span = source.span(start, min(start + len(text), len(source.text)))
-        return self.at_span(span, message, severity=severity, kind=kind, names=names)
+        return self.at_span(source.span(start, min(start + len(text), len(source.text))), message, severity, **details)
 
 
 def _used_paths(model: Model) -> dict[str, dict[str, str]]:

@@ -1,6 +1,7 @@
 """K970 controller-contradicts-wheels."""
 
 from collections.abc import Iterator
+from typing import Any
 
 from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.description.xml.source import Source, Span
@@ -112,7 +113,7 @@ class ControllerContradictsWheels(RobotRule):
             position = f"{first.place[0]:g} {first.place[1]:g} {first.place[2]:g} m"
             message = f"wheels `{node.text}` and `{right[0][0].text}` are at the same place, {position}"
             help, names = "check the signs of the joint origins", (right[0][0].text,)
-            yield self._at(source, node, message, node.text, help, "place", names)
+            yield self._at(source, node, message, node.text, help, kind="place", names=names)
         separation_of_joints = abs(lateral)
         max_ratio = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
         distances = [
@@ -146,20 +147,12 @@ class ControllerContradictsWheels(RobotRule):
                 yield self._at(source, parameter, message, first.joint.name, help, names=(child,), other=written)
 
     def _at(
-        self,
-        source: Source,
-        node: Node,
-        message: str,
-        joint: str,
-        help: str,
-        kind: str = "",
-        names: tuple[str, ...] = (),
-        other: Span | None = None,
+        self, source: Source, node: Node, message: str, joint: str, help: str, other: Span | None = None, **details: Any
     ) -> Finding:
-        span = span_of(source, node)
         # Several files that contradict one property are different causes.
         cause = f"{message} in {source.file}" if other is not None else ""
-        return self.at_span(span, message, joint=joint, help=help, kind=kind, names=names, other=other, cause=cause)
+        details |= {"joint": joint, "help": help, "other": other, "cause": cause}
+        return self.at_span(span_of(source, node), message, **details)
 
 
 def _positive_number(group: Node, name: str) -> Iterator[tuple[Node, float]]:

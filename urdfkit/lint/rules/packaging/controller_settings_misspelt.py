@@ -1,6 +1,7 @@
 """K962 controller-settings-misspelt."""
 
 import re
+from typing import Any
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.control.controller_types import TYPES, meant_type
@@ -89,7 +90,7 @@ class ControllerSettingsMisspelt(RobotRule):
             yield from self._sections(source)
             if (tab := re.search(_TAB, text)) is not None:
                 message = "YAML is indented with a tab"
-                yield self._at(source, tab.start(), tab[0], message, "indent with spaces", "error")
+                yield self._at(source, tab.start(), tab[0], message, help="indent with spaces", severity="error")
 
     def _loaded(self, model: Model) -> Findings:
         """Yield a finding for each loaded controller of another package, for urdfkit, and for unknown parameters."""
@@ -149,13 +150,5 @@ class ControllerSettingsMisspelt(RobotRule):
             )
             yield self.at_span(span_of(source, key), message)
 
-    def _at(
-        self,
-        source: Source,
-        start: int,
-        text: str,
-        message: str,
-        help: str | None = None,
-        severity: Severity | None = None,
-    ) -> Finding:
-        return self.at_span(source.span(start, start + len(text)), message, severity=severity, help=help)
+    def _at(self, source: Source, start: int, text: str, message: str, **details: Any) -> Finding:
+        return self.at_span(source.span(start, start + len(text)), message, **details)
