@@ -13,7 +13,7 @@ from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.app.viewer.viewing import viewing
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import ModelArgument
-from urdfkit.view.protocol.page_requests import Request
+from urdfkit.view.protocol.page_requests import Request, Schema, choice
 
 WORLD = "empty"
 """World of the simulation until the page names another."""
@@ -67,7 +67,6 @@ def _view(
 ) -> tuple[ShownRobot, str]:
     """Serve the viewer until the page requests a simulation; return the robot of then, and the world."""
     from urdfkit.description.sdf.model_library import world_names
-    from urdfkit.view.protocol.page_requests import Schema, choice
 
     switch, worlds = _Switch(world), world_names()
     with viewing(page, model, shown, strict=strict) as session:
@@ -85,7 +84,6 @@ def _simulate(page: Page, model: ModelArgument, world: str, *, strict: bool) -> 
     from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.description.loading import load_repaired, load_valid
     from urdfkit.description.sdf import load_world
-    from urdfkit.view.protocol.page_requests import Schema
 
     switch = _Switch()
     robot = load_valid(model) if strict else load_repaired(model)

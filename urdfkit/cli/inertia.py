@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_package_path
-from urdfkit.errors import UrdfkitError, UsageError, short_lines
+from urdfkit.errors import ModelError, UrdfkitError, UsageError, did_you_mean, short_lines
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -116,8 +116,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _chosen(model: Model, name: str | None) -> list[Link]:
-    from urdfkit.errors import ModelError, did_you_mean
-
     links = list(model.robot.link_by_name_in_order())
     if not links:
         fault = next(iter(model.expanded.faults), None)

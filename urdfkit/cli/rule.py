@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.errors import UsageError
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
@@ -24,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UsageError: unknown rule, or no page contains the words.
     """
-    from urdfkit.errors import UsageError, did_you_mean
+    from urdfkit.errors import did_you_mean
     from urdfkit.lint.catalogue import page, rules
 
     if arguments.search:
@@ -55,7 +57,6 @@ def _colored(page: str) -> str:
 
 
 def _search(words: list[str]) -> tuple[type[Rule], ...]:
-    from urdfkit.errors import UsageError
     from urdfkit.lint.catalogue import page, rules
 
     found = tuple(rule for rule in rules() if all(word.lower() in page(rule).lower() for word in words))

@@ -6,6 +6,7 @@ numpy is imported on first use, not with this module.
 from functools import cache
 from typing import Any
 
+from urdfkit.errors import UsageError
 from urdfkit.messages.types import full_type_name, message_type, type_layouts
 
 
@@ -25,7 +26,7 @@ def from_fields(type: str, fields: Any) -> Any:
         >>> from_fields("geometry_msgs/msg/Twist", {"linear": {"x": 0.5}}).linear.x
         0.5
     """
-    from urdfkit.errors import UsageError, did_you_mean
+    from urdfkit.errors import did_you_mean
 
     full = full_type_name(type)
     kind = message_type(full)
@@ -57,8 +58,6 @@ def _moment(type: str, fields: Any) -> Any:
         UsageError: a field is set twice, is not a number, or is out of range.
     """
     import math
-
-    from urdfkit.errors import UsageError
 
     named = {"secs": "sec", "nsecs": "nanosec"}
     if isinstance(fields, dict):
@@ -97,8 +96,6 @@ def _value(type: str, name: str, description: Any, value: Any) -> Any:
         UsageError: a value of the wrong kind.
     """
     import numpy as np
-
-    from urdfkit.errors import UsageError
 
     node, details = int(description[0]), description[1]
     if node == 2:

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
+from urdfkit.errors import MissingDependencyError, UsageError
+
 TWIST = "geometry_msgs/msg/Twist"
 ODOMETRY = "nav_msgs/msg/Odometry"
 JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -33,8 +35,6 @@ def require_message_types() -> None:
     """
     from importlib.util import find_spec
 
-    from urdfkit.errors import MissingDependencyError
-
     if find_spec("rosbags") is None:
         raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
 
@@ -51,7 +51,7 @@ def message_type(name: str) -> Any:
         UsageError: no such type, with the nearest one.
         MissingDependencyError: rosbags is not installed.
     """
-    from urdfkit.errors import MissingDependencyError, UsageError, did_you_mean
+    from urdfkit.errors import did_you_mean
 
     types = _types()
     if types is None:
@@ -110,8 +110,6 @@ def typestore() -> Any:
         >>> "control_msgs/msg/JointControllerState" in typestore().types
         True
     """
-    from urdfkit.errors import MissingDependencyError
-
     if (found := _store()) is None:
         raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
     return found
@@ -135,8 +133,6 @@ def register_types(name: str, text: str) -> dict[str, Any]:
         2.5
     """
     from rosbags.typesys import TypesysError, get_types_from_msg
-
-    from urdfkit.errors import UsageError
 
     try:
         found: dict[str, Any] = get_types_from_msg(text, name)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from urdfkit.app.page import Page
+from urdfkit.app.page import Page, faults_on_page
 from urdfkit.app.replay.replay_session import ReplaySession
 from urdfkit.bridges.bag_file import BagFile
 from urdfkit.errors import UsageError
@@ -46,7 +46,6 @@ def replaying(
     Raises:
         UrdfkitError: the robot or the recording cannot be read.
     """
-    from urdfkit.app.page import faults_on_page
     from urdfkit.app.repair_findings import note_repairs
     from urdfkit.app.replay.recorded_robot import RecordedRobot
     from urdfkit.app.viewer.shown_robot import ShownRobot

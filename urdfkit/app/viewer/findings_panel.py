@@ -8,11 +8,11 @@ from urdfkit.app.viewer.source_links import SourceLinks
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.source import Expansion, Source, Span
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
-from urdfkit.lint.engine.run import Outcome
-from urdfkit.lint.engine.settings import LintSettings
+from urdfkit.lint.engine.run import Outcome, run
+from urdfkit.lint.engine.settings import LintSettings, find
 from urdfkit.lint.finding import Finding, Fix
 from urdfkit.lint.project.entry_files import Entry
-from urdfkit.lint.project.options import Options
+from urdfkit.lint.project.options import TIME_LIMIT, Options
 from urdfkit.resources import ModelArgument
 
 LINES = 12
@@ -43,8 +43,6 @@ class FindingsPanel:
             ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, the error that
             prevented the lint or some of its rules, or None.
         """
-        from urdfkit.lint.engine.run import run
-
         self._findings = {}
         places = None if robot is None else SourceLinks(robot)
         try:
@@ -108,14 +106,10 @@ class FindingsPanel:
         return [Entry(path.relative_to(here) if path.is_relative_to(here) else path)]
 
     def _settings(self) -> LintSettings:
-        from urdfkit.lint.engine.settings import find
-
         return find(self.model.path)
 
     def _options(self, settings: LintSettings) -> Options:
         """Return the options of ``urdfkit lint`` for this model, with its xacro arguments."""
-        from urdfkit.lint.project.options import TIME_LIMIT
-
         target, folders = settings.target, tuple(Path(folder) for folder in self.model.package_path)
         return Options(
             settings.select,

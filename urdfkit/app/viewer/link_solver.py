@@ -8,8 +8,8 @@ from typing import Any
 from urdfkit.errors import UrdfkitError
 from urdfkit.kinematics import Chain
 from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
-from urdfkit.kinematics.serial.serial_solver import Solution
-from urdfkit.view.protocol.page_requests import Schema
+from urdfkit.kinematics.serial.serial_solver import SerialSolver, Solution, SolverOptions
+from urdfkit.view.protocol.page_requests import Schema, flag, numbers, text
 
 TOLERANCE = (1e-4, 1e-3)
 """Distance [m] and angle [rad] within which a pose is reached: less than a pixel."""
@@ -26,8 +26,6 @@ descent from the present one; otherwise joints would jump between configurations
 
 def request_schemas() -> dict[str, Schema]:
     """Return the requests of the page: a link and the pose in the root link that it is to have, and a link's map."""
-    from urdfkit.view.protocol.page_requests import flag, numbers, text
-
     flags = dict.fromkeys(("turn", "limits", "collision_free", "all"), flag)
     return {
         "ik": Schema({"link": text()}, {"pose": numbers(7), **flags}, changes=False),
@@ -97,8 +95,6 @@ class LinkSolver:
         turn: bool,
     ) -> list[Solution]:
         """Return all solutions, nearest first, or the one for the next move of a handle."""
-        from urdfkit.kinematics.serial.serial_solver import SerialSolver, SolverOptions
-
         solver = SerialSolver(chain.serial)
         limits = None if values.get("limits", True) else solver.wide_limits()
         options = SolverOptions(not turn, *TOLERANCE, "nearest", RESTARTS)
@@ -126,8 +122,6 @@ class LinkSolver:
         return search
 
     def _reason(self, chain: Chain, values: Mapping[str, Any], best: Solution, turn: bool) -> str:
-        from urdfkit.kinematics.serial.serial_solver import SerialSolver, SolverOptions
-
         return SerialSolver(chain.serial).reason(
             values["pose"], best, SolverOptions(not turn, *TOLERANCE, restarts=RESTARTS)
         )

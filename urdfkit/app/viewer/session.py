@@ -15,7 +15,7 @@ from urdfkit.app.viewer.shown_robot import MissingMeshes, ShownRobot
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import ModelArgument
 from urdfkit.view.html_export import Recording
-from urdfkit.view.protocol.page_requests import Request, Schema
+from urdfkit.view.protocol.page_requests import Request, Schema, numbers, text, whole
 from urdfkit.view.server.request_inbox import PageInput
 from urdfkit.view.server.server import Server
 
@@ -34,7 +34,6 @@ POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 def request_schemas() -> dict[str, Schema]:
     """Return the requests of the page: a fix by its finding's number, a point in a link's frame, a link's pose."""
     from urdfkit.app.viewer import link_solver
-    from urdfkit.view.protocol.page_requests import numbers, text, whole
 
     return {
         "fix": Schema({"finding": whole()}),

@@ -8,7 +8,7 @@ from typing import Any
 
 from urdfkit.app.page import Page, require_page
 from urdfkit.app.page_handle import PageHandle
-from urdfkit.app.viewer.session import Session
+from urdfkit.app.viewer.session import Session, request_schemas
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.description import Robot
 from urdfkit.description.loading import refuse_unused
@@ -76,7 +76,6 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool
         strict: refuse changed files that need a repair.
     """
     from urdfkit.app.viewer.findings_panel import FindingsPanel
-    from urdfkit.app.viewer.session import request_schemas
     from urdfkit.network.access_control import is_loopback
 
     server = page.server

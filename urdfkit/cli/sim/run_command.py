@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.app.page import require_packages
+from urdfkit.app.page import note, require_packages
 from urdfkit.app.termination import ended_by_signals
 from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.robot_arguments.robot_loading import warn_of_file_names
@@ -76,7 +76,6 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     check_run_options(arguments, "sim run")
     require_packages("sim run", "sim", {name: name for name in ("numpy", "trimesh", "numba", "rosbags")})
-    from urdfkit.app.page import note
     from urdfkit.app.simulation import image_files, save_options
     from urdfkit.app.simulation.bridging.bridges import bridged
     from urdfkit.app.simulation.bridging.real_time import RunControls

@@ -8,7 +8,7 @@ from urdfkit.description.urdf.robot import JOINT_TYPES
 from urdfkit.lint.editor.cursor import Cursor
 from urdfkit.lint.editor.plugin_parameters import described, plugin_around
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.model.tags import Tag
+from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN
 from urdfkit.record import record
 
@@ -83,7 +83,6 @@ def _around(cursor: Cursor) -> Tag | None:
 def _open_at(text: str) -> Iterator[str]:
     """Yield the name of the element that is open at the end of a text, if any."""
     from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.tags import Document
 
     found, tags = "", Document(Source("", text)).roots
     while tags and not tags[-1].empty and tags[-1].close is None and tags[-1].close_end == len(text):

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import UNROTATED, rotation_of
-from urdfkit.description.urdf.robot import Geometry, Link, Pose, Vector
+from urdfkit.description.urdf.robot import Geometry, Link, Mesh, Pose, Vector
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source
@@ -94,8 +94,6 @@ def compute_inertial(
 
 
 def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moments:
-    from urdfkit.description.urdf.robot import Mesh
-
     if not isinstance(geometry, Mesh):
         return of_primitive(geometry)
     from urdfkit.meshes.loader import MeshLoader

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from urdfkit.description.urdf.robot import Robot, Transmission
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.fix_builders import nearest
+from urdfkit.lint.fix_builders import meant, nearest
 
 PACKAGE = "hardware_interface"
 """Package prefix of the interface names, before the slash."""
@@ -79,8 +79,6 @@ def meant_interface(name: str) -> str | None:
 
 def meant_joints(robot: Robot) -> set[str]:
     """Return the joints most similar to the undefined joint names in the robot's ``<ros2_control>``."""
-    from urdfkit.lint.fix_builders import meant
-
     joints = robot.joint_by_name
     named = (part.get("name") or "" for block in robot.ros2_control for part in block.element.find_all("joint"))
     return {near for name in named if name not in joints and (near := meant(name, joints)[0]) is not None}

@@ -15,7 +15,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, 
 from urdfkit.lint.facts.launch.ros_version import ros_version
 from urdfkit.lint.facts.moveit.plugin_names import PLUGINS, wrong_plugins
 from urdfkit.lint.facts.moveit.settings import unwrapped
-from urdfkit.lint.fix_builders import nearest
+from urdfkit.lint.fix_builders import meant, nearest
 
 _PLANNERS = """
 AITstar ABITstar AnytimePathShortening BFMT BITstar BKPIECE BiEST BiTRRT EST FMT KPIECE LBKPIECE LBTRRT LazyPRM
@@ -179,8 +179,6 @@ def _scaling_factor(key: Node, value: Node) -> Defects:
 
 
 def _hint(name: str, names: Iterable[str]) -> str:
-    from urdfkit.lint.fix_builders import meant
-
     return meant(name, names)[1]
 
 

@@ -1,7 +1,7 @@
 """Z825 plugin-unknown."""
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.description.plugins.gazebo_libraries import classes
+from urdfkit.description.plugins.gazebo_libraries import classes, meant_class, meant_library
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.control.exported_plugins import is_built_library
 from urdfkit.lint.facts.gazebo.plugins import plugins
@@ -45,7 +45,6 @@ class PluginUnknown(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt library and each misspelt class."""
-        from urdfkit.description.plugins.gazebo_libraries import meant_class, meant_library
         from urdfkit.description.plugins.lookup import stem
 
         for plugin, _, _ in plugins(model.robot):

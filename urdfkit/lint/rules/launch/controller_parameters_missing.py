@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import yamls
+from urdfkit.lint.facts.control.yaml_tree import documents, yamls
 from urdfkit.lint.facts.launch.spawned_controllers import (
     Spawner,
     definitions,
@@ -61,7 +61,6 @@ class ControllerParametersMissing(RobotRule):
 
     def _controller_list(self, model: Model, files: list[Source]) -> Findings:
         from urdfkit.description.packages.related_files import package_of
-        from urdfkit.lint.facts.control.yaml_tree import documents
 
         for source, tag in tags(files, "param"):
             value = tag.attributes.get("value")

@@ -7,7 +7,15 @@ from pathlib import Path
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
-from urdfkit.lint.facts.launch.receivers import OUTSIDE, receiver
+from urdfkit.lint.facts.launch.receivers import (
+    COMPLETE,
+    EVERYWHERE,
+    OUTSIDE,
+    actions_at,
+    included_files,
+    misspelt_file,
+    receiver,
+)
 from urdfkit.lint.facts.launch.records import Call, LaunchActions
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -47,7 +55,6 @@ class LaunchArgumentUnknown(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown or missing argument."""
         from urdfkit.lint.facts.launch.actions import launch_files
-        from urdfkit.lint.facts.launch.receivers import actions_at, misspelt_file
 
         for file in launch_files(model):
             for call in file.includes:
@@ -74,8 +81,6 @@ class LaunchArgumentUnknown(RobotRule):
                 yield from self._xacro(file, call, model)
 
     def _outside(self, file: LaunchActions, call: Call, names: list[str], target: str) -> Findings:
-        from urdfkit.lint.facts.launch.receivers import COMPLETE, EVERYWHERE
-
         is_strict = file.is_ros1 and target == "empty_world.launch"
         is_complete = is_strict or (call.package, target) in COMPLETE
         accepted = names if is_strict else [*names, *EVERYWHERE]
@@ -93,8 +98,6 @@ class LaunchArgumentUnknown(RobotRule):
                 yield self._at(file, name, message, self.severity)
 
     def _include(self, file: LaunchActions, call: Call, actions: LaunchActions, model: Model) -> Findings:
-        from urdfkit.lint.facts.launch.receivers import included_files
-
         names, target = set(actions.declared), call.path.rpartition("/")[2]
         only_misspelt = actions.is_computed or (not actions.declared and not file.is_ros1)
         if not actions.is_ros1:

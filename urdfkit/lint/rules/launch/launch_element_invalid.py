@@ -2,7 +2,15 @@
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.launch.xml_elements import ELEMENTS
+from urdfkit.lint.facts.launch.xml_elements import (
+    ACTIONS,
+    ANY,
+    ELEMENTS,
+    OTHER_ELEMENTS,
+    OTHER_SUBSTITUTIONS,
+    OTHER_WORDS,
+    SUBSTITUTIONS,
+)
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.tags import Attribute, Document, Tag
@@ -72,7 +80,6 @@ class LaunchElementInvalid(RobotRule):
         import re
 
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
-        from urdfkit.lint.facts.launch.xml_elements import OTHER_SUBSTITUTIONS, SUBSTITUTIONS
 
         others, defined = OTHER_SUBSTITUTIONS[version], SUBSTITUTIONS[version]
         for use in re.finditer(r"\$\(([\w-]+)(?=[\s)])", uncommented(source)):
@@ -128,7 +135,6 @@ class LaunchElementInvalid(RobotRule):
 def _unknown(name: str, above: str, version: int) -> str | None:
     """Return the message for an element that its parent cannot contain; None for the others."""
     from urdfkit.lint.facts.launch.python_api import differs_by_a_letter
-    from urdfkit.lint.facts.launch.xml_elements import ACTIONS, ANY, OTHER_ELEMENTS
 
     table = ELEMENTS[version]
     children = table[above].children if above in table else ()
@@ -149,8 +155,6 @@ def _unknown(name: str, above: str, version: int) -> str | None:
 
 def _meant(attribute: Attribute, tag: Tag, valid: tuple[str, ...], version: int) -> str | None:
     """Return the attribute that was meant by an unknown one, empty if none is similar; None for known attributes."""
-    from urdfkit.lint.facts.launch.xml_elements import OTHER_WORDS
-
     name = attribute.name
     if name in (*valid, "if", "unless") or ":" in name or name == "xmlns":
         return None

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.related_files import neighbours
-from urdfkit.errors import did_you_mean
-from urdfkit.lint.facts.launch.actions import share_of
+from urdfkit.errors import did_you_mean, nearest
+from urdfkit.lint.facts.launch.actions import actions_of, share_of
 from urdfkit.lint.model.tags import Attribute, Document, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -71,7 +71,6 @@ class LaunchValueInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unusable value."""
-        from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
         from urdfkit.lint.facts.moveit.planning import meant_plugin
         from urdfkit.lint.facts.moveit.plugin_names import wrong_plugins_in_launch
@@ -129,7 +128,6 @@ _SYNONYMS = {"string": "str", "double": "float", "integer": "int", "boolean": "b
 
 
 def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> Iterator[tuple[Attribute, str]]:
-    from urdfkit.errors import nearest
     from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
     attributes = tag.attributes

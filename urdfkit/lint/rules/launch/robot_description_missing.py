@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.launch.spawned_controllers import tags
+from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, ros1_files, tags
 from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -57,7 +57,6 @@ class RobotDescriptionMissing(RobotRule):
     def _in_ros1(self, model: Model) -> Findings:
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.receivers import OUTSIDE, included_files
-        from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, ros1_files
 
         files = ros1_files(model)
         below: dict[str, list[Source] | None] = {}

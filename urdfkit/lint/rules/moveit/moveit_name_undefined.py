@@ -5,7 +5,7 @@ import re
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, span_of, yamls
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.fix_builders import meant
+from urdfkit.lint.fix_builders import meant, nearest
 from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -103,8 +103,6 @@ class MoveitNameUndefined(RobotRule):
 
     def _near(self, source: Source, node: Node, message: str, name: str, defined: list[str]) -> Findings:
         """Yield a finding if the name is a misspelling of a defined name."""
-        from urdfkit.lint.fix_builders import nearest
-
         near = nearest(name, defined, cutoff=0.8)
         if near is not None and is_typo(name, near):
             yield self._at(source, node, message, [near])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.defect_message import DefectMessage, Suggestion
-from urdfkit.lint.facts.control.yaml_tree import number_of
+from urdfkit.lint.facts.control.yaml_tree import not_a_number, number_of, span_of
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -57,7 +57,6 @@ class MoveitSettingInvalid(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid parameter."""
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-        from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
         from urdfkit.lint.facts.moveit.entry_defects import incomplete_entries, uncontrolled_joints, unused_limits
@@ -117,7 +116,6 @@ def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node
 
 
 def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
-    from urdfkit.lint.facts.control.yaml_tree import not_a_number
     from urdfkit.lint.facts.moveit.settings import SOLVER_KEYS, SOLVERS
 
     yield from _misspelt(entry, SOLVER_KEYS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.moveit.srdf import groups, joints_of, path_between
+from urdfkit.lint.facts.moveit.srdf import groups, joints_of, path_between, semantics_of, severity_for
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -45,7 +45,6 @@ class SrdfGroupInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.moveit.group_joints import repeated_groups
-        from urdfkit.lint.facts.moveit.srdf import semantics_of, severity_for
 
         if model.is_incomplete:
             return

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.lint.facts.moveit.srdf import severity_for
+from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, severity_for, virtual_joints
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -47,7 +47,6 @@ class SrdfNameUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""
         from urdfkit.lint.facts.moveit.group_joints import group_of_states
-        from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, virtual_joints
         from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import meant
 

@@ -6,8 +6,14 @@ from typing import Any
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.control.controller_types import TYPES, meant_type
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.controller_settings import misspelt
-from urdfkit.lint.facts.control.yaml_tree import span_of
+from urdfkit.lint.facts.control.controller_settings import (
+    INTERFACES,
+    misspelt,
+    misspelt_names,
+    misspelt_sections,
+    sections_without_parameters,
+)
+from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of, yamls
 from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -61,7 +67,6 @@ class ControllerSettingsMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
         from urdfkit.lint.facts.control.controller_joints import typed
-        from urdfkit.lint.facts.control.controller_settings import misspelt_sections
         from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
@@ -96,7 +101,6 @@ class ControllerSettingsMisspelt(RobotRule):
         """Yield a finding for each loaded controller of another package, for urdfkit, and for unknown parameters."""
         from urdfkit.description.control.controller_parameters import unknown_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
-        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         loaded = loaded_controllers(model)
         keys = [(source.file, key.line, key.column) for source in yamls(model) for key, _, _ in misspelt(source)]
@@ -115,9 +119,6 @@ class ControllerSettingsMisspelt(RobotRule):
 
     def _sections(self, source: Source) -> Findings:
         """Yield a finding for each type without package, and each ROS 2 section without ``ros__parameters``."""
-        from urdfkit.lint.facts.control.controller_settings import sections_without_parameters
-        from urdfkit.lint.facts.control.yaml_tree import documents, groups
-
         for root in documents(source):
             for _, group in groups(root):
                 kind = group.find("type")
@@ -134,7 +135,6 @@ class ControllerSettingsMisspelt(RobotRule):
             yield self.at_span(span_of(source, key), message, severity="error", help=help)
 
     def _parameters(self, source: Source, model: Model) -> Findings:
-        from urdfkit.lint.facts.control.controller_settings import INTERFACES, misspelt_names
         from urdfkit.lint.facts.control.ros2_controllers import offered
 
         for node, suggestion, description in misspelt_names(source):

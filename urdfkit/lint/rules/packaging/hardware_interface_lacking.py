@@ -13,7 +13,7 @@ from urdfkit.lint.facts.control.ros2_controllers import (
     offered,
     wanted,
 )
-from urdfkit.lint.facts.control.yaml_tree import span_of
+from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -74,7 +74,6 @@ class HardwareInterfaceLacking(RobotRule):
         if not model.robot.ros2_control:
             return
         from urdfkit.lint.facts.control.hardware_interfaces import meant_joints
-        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text]
         hardware = offered(model) if sources else None

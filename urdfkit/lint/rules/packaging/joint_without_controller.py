@@ -3,7 +3,7 @@
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.ros2_controllers import declared
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered, wanted
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _FEWEST = 2
@@ -44,7 +44,6 @@ class JointWithoutController(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for a joint that no controller moves."""
-        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, offered, wanted
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text] if model.robot.ros2_control else []

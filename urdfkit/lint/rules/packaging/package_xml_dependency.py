@@ -8,7 +8,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.control.controller_types import TYPES
 from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, neighbours, package_of
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import yamls
+from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
 from urdfkit.lint.facts.ros_packages import is_in_metapackage, misspelling_of, names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -191,7 +191,6 @@ class PackageXmlDependency(RobotRule):
     def _check_controllers(self, model: Model) -> Findings:
         """Yield a finding for each package of a controller in YAML that none of the related packages depends on."""
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
-        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         files = list(yamls(model))
         needed = _needed(model)

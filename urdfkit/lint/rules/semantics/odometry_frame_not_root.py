@@ -1,6 +1,6 @@
 """S913 odometry-frame-not-root."""
 
-from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, is_foreign, plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _FRAMES = (
@@ -49,7 +49,6 @@ class OdometryFrameNotRoot(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each drive with another base frame."""
         from urdfkit.description.plugins import values
-        from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, is_foreign, spec_of
 
         yield from self._same_frames(model)
         roots = model.robot.roots()
