@@ -105,3 +105,68 @@ def test_the_robot_without_mistakes_has_no_findings(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "cart.urdf").write_text(ROBOT)
     assert lint("cart.urdf", select=CODES) == []
+
+
+def leg(name: str, x: float, y: float) -> str:
+    """Return a leg of the quadruped."""
+    side = 1 if y > 0 else -1
+    links = "".join(
+        f'  <link name="{name}_{part}"><inertial><origin xyz="0 {side * 0.04} -0.1"/><mass value="1"/>'
+        '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>\n'
+        for part in ("hip", "thigh", "calf", "foot")
+    )
+    joints = "".join(
+        f'  <joint name="{name}_{child}_joint" type="{kind}"><parent link="{parent}"/><child link="{name}_{child}"/>\n'
+        f'    <origin xyz="{xyz}"/>\n    <axis xyz="{axis}"/>\n'
+        '    <limit lower="-1" upper="1" effort="9" velocity="9"/></joint>\n'
+        for child, parent, kind, xyz, axis in (
+            ("hip", "trunk", "revolute", f"{x} {y} 0", "1 0 0"),
+            ("thigh", f"{name}_hip", "revolute", f"0 {side * 0.08} 0", "0 1 0"),
+            ("calf", f"{name}_thigh", "revolute", f"0.01 {side * 0.01} -0.2", "0 1 0"),
+            ("foot", f"{name}_calf", "revolute", f"0 {side * 0.02} -0.21", "0 1 0"),
+        )
+    )
+    return links + joints
+
+
+def quadruped(*names: str) -> str:
+    """Return a robot with legs."""
+    legs = (leg(name, 0.2 if name[0] == "F" else -0.2, 0.1 if name[1] == "L" else -0.1) for name in names)
+    return f'<robot name="dog">\n  <link name="trunk"/>\n{"".join(legs)}</robot>\n'
+
+
+FOUR = quadruped("FL", "FR", "HL", "HR")
+
+
+@pytest.mark.parametrize("name", ["FL", "FR", "HL", "HR"])
+@pytest.mark.parametrize(
+    ("joint", "k", "old", "new", "code"),
+    [
+        ("thigh", 1, "0.08", "-0.08", "S909"),
+        ("calf", 2, "-0.2", "0.2", "S909"),
+        ("foot", 2, "-0.21", "-2.1", "S909"),
+        ("calf", None, "0 1 0", "0 0 1", "S904"),
+    ],
+)
+def test_the_joint_that_breaks_the_symmetry_of_the_legs_is_reported(
+    name, joint, k, old, new, code, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    lines = FOUR.splitlines()
+    at = next(i for i, line in enumerate(lines) if f'"{name}_{joint}_joint"' in line) + (1 if code == "S909" else 2)
+    if k is None:
+        lines[at] = lines[at].replace(old, new)
+    else:
+        parts = lines[at].split('"')[1].split()
+        parts[k] = str(round(float(parts[k]) * float(new) / float(old), 6))
+        lines[at] = f'    <origin xyz="{" ".join(parts)}"/>'
+    (tmp_path / "dog.urdf").write_text("\n".join(lines))
+    (found,) = lint("dog.urdf", select=("S904", "S909"))
+    assert (found.code, found.line) == (code, at + 1)
+
+
+@pytest.mark.parametrize("names", [("FL", "FR", "HL", "HR"), ("FL", "FR")])
+def test_symmetric_legs_have_no_findings(names, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "dog.urdf").write_text(quadruped(*names))
+    assert lint("dog.urdf", select=("S904", "S909")) == []

@@ -16,6 +16,7 @@ _SIDES: dict[str, tuple[str, ...]] = {
     "lf": ("rf",),
     "lb": ("rb",),
     "lh": ("rh",),
+    "hl": ("hr",),
 }
 """Word for a part on the left → the words for its counterpart on the right."""
 
@@ -24,16 +25,16 @@ _OTHER_SIDES: dict[str, tuple[str, ...]] = {other: (word,) for word, others in _
 
 _ENDS: dict[str, tuple[str, ...]] = {
     "front": ("rear", "back", "hind"),
-    "fl": ("rl", "bl"),
-    "fr": ("rr", "br"),
+    "fl": ("rl", "bl", "hl"),
+    "fr": ("rr", "br", "hr"),
     "lf": ("lh", "lb"),
     "rf": ("rh", "rb"),
 }
 """Word for a part at the front → the words for its counterpart at the rear."""
 
-_WORD = re.compile(r"left|front|(?<![a-z])(?:f[lr]|[rb]l|l[fbh]|rf|l)(?![a-z])", re.IGNORECASE)
+_WORD = re.compile(r"left|front|(?<![a-z])(?:f[lr]|[rbh]l|l[fbh]|rf|l)(?![a-z])", re.IGNORECASE)
 
-_RIGHT = re.compile(r"right|(?<![a-z])(?:[frb]r|r[fbh]|r)(?![a-z])", re.IGNORECASE)
+_RIGHT = re.compile(r"right|(?<![a-z])(?:[frbh]r|r[fbh]|r)(?![a-z])", re.IGNORECASE)
 
 _ALIKE = 0.05
 """Largest relative difference of the sizes of equal shapes."""

@@ -5,6 +5,7 @@ import re
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder, Joint, Vector
 from urdfkit.lint.facts.placement.joint_axes import axis_in_root
+from urdfkit.lint.facts.placement.mirrored_chains import asymmetric_axis, odd_axis
 from urdfkit.lint.facts.twins import Twins, links_of, twins
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.placement import shapes_of
@@ -31,7 +32,8 @@ class AxisContradictsPart(RobotRule):
     axis. Continuous joints of wheels must have an approximately horizontal axis that is not perpendicular to the line
     from the wheel to its counterpart on the other side. Casters, forks and rollers are not checked. Also reports
     counterparts, such as ``left_wheel_joint`` and ``right_wheel_joint``, whose axes are not parallel, and front and
-    rear wheels of one side that turn in opposite directions.
+    rear wheels of one side that turn in opposite directions. In two chains, such as arms or legs, the only joint is
+    reported whose axis is not mirrored.
 
     ## Why is this bad?
     The wheel tumbles or scrapes over the ground instead of rolling, or the robot does not steer.
@@ -86,8 +88,14 @@ class AxisContradictsPart(RobotRule):
             message = None if found & {first.name, second.name} else _contradiction(pair)
             if message is not None and not (_is_disc(first, model) and _is_disc(second, model)):
                 found |= {first.name, second.name}
-                wrong = _odd_one(pair, pairs)
+                wrong = _odd_one(pair, pairs, model)
                 yield self._at(wrong, message, model, (first.name, second.name), _place(pair))
+
+        unlike = asymmetric_axis(model) if not found else None
+        if unlike is not None:
+            wrong, right = unlike
+            message = f"the axes of `{wrong.name}` and `{right.name}` are not mirrored, unlike all others of both sides"
+            yield self._at(wrong, message, model, (wrong.name, right.name))
 
     def _at(
         self, joint: Joint, message: str, model: Model, names: tuple[str, ...] = (), place: str = "axis"
@@ -98,16 +106,18 @@ class AxisContradictsPart(RobotRule):
         return self.at(model, element, message, attribute=attribute, joint=joint.name, help=help, names=names)
 
 
-def _odd_one(pair: Twins, pairs: list[Twins]) -> Joint:
+def _odd_one(pair: Twins, pairs: list[Twins], model: Model) -> Joint:
     """Return the joint of a pair whose axis differs from that of more counterparts."""
     odd = dict.fromkeys((pair.first.name, pair.second.name), 0)
     for each in pairs:
         for joint, other in ((each.first, each.second), (each.second, each.first)):
             if joint.name in odd and _cosine(_axis_in_parent(joint), _axis_in_parent(other)) < _MIN_UPRIGHT:
                 odd[joint.name] += 1
-    if odd[pair.first.name] > odd[pair.second.name] or pair.second.element.find(_place(pair)) is None:
+    if pair.second.element.find(_place(pair)) is None:
         return pair.first
-    return pair.second
+    if odd[pair.first.name] == odd[pair.second.name]:
+        return odd_axis(pair.first, pair.second, model)
+    return pair.first if odd[pair.first.name] > odd[pair.second.name] else pair.second
 
 
 def _place(pair: Twins) -> str:

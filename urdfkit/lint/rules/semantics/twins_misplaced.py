@@ -7,6 +7,7 @@ from math import dist, hypot, inf
 from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.placement.directions import Directions
+from urdfkit.lint.facts.placement.mirrored_chains import asymmetric_offset
 from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
 from urdfkit.lint.facts.placement.twin_overlaps import overlapping_twins
 from urdfkit.lint.facts.root_cause import Place, argument_of_coordinate, call_of, shared_argument
@@ -44,6 +45,7 @@ class TwinsMisplaced(RobotRule):
     - moving joints that differ in a coordinate by more than a quarter of their distance from the parent, and wheels
       that differ by more than a twentieth
     - a left part on the right side, or a front part at the rear
+    - the only joint of two chains, such as arms or legs, whose offset is not mirrored
     - joints with equal offsets although the shapes of their parents are mirrored
     - shapes with equal offsets although the joints of their links are mirrored
     - links of the two sides, except hands and cameras, that overlap with every joint at zero
@@ -110,6 +112,18 @@ class TwinsMisplaced(RobotRule):
                 if argument is None or argument not in arguments:
                     arguments.append(argument)
                     yield self.at(model, place, message, attribute=attribute, joint=wrong.name, help=help, names=names)
+        asymmetric = asymmetric_offset(model) if not found else None
+        if asymmetric is not None:
+            wrong, right, k = asymmetric
+            found.add(wrong.name)
+            origin = wrong.element.find("origin") or wrong.element
+            place, attribute = _argument(model, wrong, right, k) or (origin, "xyz")
+            values = " and ".join(f"{joint.origin.xyz[k]:g} m" for joint in (wrong, right))
+            message = f"joints `{wrong.name}` and `{right.name}` are not mirrored, unlike all others of both sides: "
+            message += f"{'xyz'[k]} is {values}"
+            help = "check the sign and the decimal point"
+            names = (wrong.name, right.name)
+            yield self.at(model, place, message, attribute=attribute, joint=wrong.name, help=help, names=names)
         for joint, message in (*_exchanged(model), *_equal_below_mirrored(model)) if not found else ():
             origin = joint.element.find("origin") or joint.element
             help = "check the signs of the coordinates"
