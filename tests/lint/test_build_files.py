@@ -378,3 +378,33 @@ def test_packages_that_cmake_finds_are_dependencies(cmake, call, expected):
     reported = [one.message for one in lint(cmake, target="ros2") if one.code == "K956"]
     assert len(reported) == len(expected)
     assert all(map(str.startswith, reported, expected)), reported
+
+
+PROGRAM = """add_executable(drive src/drive.cpp)
+target_link_libraries(drive stdc++)
+install(TARGETS drive DESTINATION lib/${PROJECT_NAME})
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("", "", []),
+        ("(drive src", "(${PROJECT_NAME}_drive src", ["4: the other commands call this target `drive`"]),
+        ("(drive src", "(driver src", ["4: the other commands call this target `drive`"]),
+        ("libraries(drive", "libraries(driver", ["5: no command defines the target `driver`; did you mean `drive`?"]),
+        ("TARGETS drive", "TARGETS driver", ["6: no command defines the target `driver`; did you mean `drive`?"]),
+        ("src/drive.cpp", "src/driver.cpp", ["4: `src/driver.cpp` does not exist in this package"]),
+        ("src/drive.cpp", "source/drive.cpp", []),
+        ("add_executable", "include(targets.cmake)\nadd_executable", []),
+        ("install(TARGETS drive", "add_python_module(extra x.cpp)\ninstall(TARGETS drive extra", []),
+    ],
+)
+def test_targets_and_their_sources(cmake, old, new, expected):
+    write(cmake, {"src/drive.cpp": "int main() {}\n"})
+    tool = "find_package(ament_cmake REQUIRED)\n"
+    text = CMAKE.replace(tool, tool + PROGRAM.replace(old, new, 1) if old else tool + PROGRAM)
+    (cmake / "CMakeLists.txt").write_text(text)
+    reported = found(cmake)
+    assert len(reported) == len(expected)
+    assert all(line.startswith(f"CMakeLists.txt:{start}") for line, start in zip(reported, expected, strict=True))

@@ -188,3 +188,37 @@ def test_own_nodes_on_different_topics_are_reported_once(tmp_path, changes, expe
     (reported,) = in_code(tmp_path, **changes)
     assert reported[:2] == expected[:2]
     assert reported[2].startswith(expected[2])
+
+
+MEMBERS = """class Follower : public rclcpp::Node {
+  rclcpp::Publisher<geometry_msgs::msg::Twist>::SharedPtr out_;
+  rclcpp::Subscription<std_msgs::msg::Bool>::SharedPtr stop_;
+};
+"""
+
+
+def test_a_publisher_that_is_a_member_of_a_class_is_no_publisher_of_unknown_messages(tmp_path):
+    assert found(tmp_path, {"guard.cpp": CPP.replace("PUBLISHER", "") + MEMBERS}) == [("K977", 3)]
+
+
+NAMED = '<node pkg="cart" exec="guard" name="{}"><param from="$(find-pkg-share cart)/guard.yaml"/></node>\n'
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "expected"),
+    [
+        ("guard", "guard", []),
+        ("guard", "stopper", [("guard.yaml", 1)]),
+        ("keeper", "guard", [("cart.launch.xml", 2)]),
+        ("keeper", "other:\n  ros__parameters:\n    x: 1\nkeeper", []),
+    ],
+)
+def test_the_section_of_an_own_node_has_its_name(tmp_path, name, section, expected):
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    for file, text in FILES.items():
+        (tmp_path / file).write_text(text.replace("<launch>", f"<launch>\n{NAMED.format(name)}"))
+    (tmp_path / "guard.py").write_text(GUARD)
+    more = "other_node:\n  ros__parameters:\n    rate: 1\n"
+    (tmp_path / "guard.yaml").write_text(SECTION.replace("guard:", f"{section}:") + more)
+    findings = [one for one in lint(tmp_path, target="ros2") if one.code == "L117"]
+    assert [(one.file.rpartition("/")[2], one.line) for one in findings] == expected

@@ -101,21 +101,23 @@ def misnamed(model: Model) -> Defects:
                 reported.add(name)
                 message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
                 yield node.source, _span(node), message
-            elif node.name is not None and (unused := _unused(node, by_file[file], readers, started)):
+            elif (node.name is not None or not node.has_name) and (
+                unused := _unused(node, by_file[file], readers, started, model)
+            ):
                 message = f"node `{name}` has no section in {_short(file)}, and no node is named `{unused}`"
                 key = next(each for each, other in keys if other == unused)
                 # A node that has the name by default, or the name of its program, is not the misnamed side.
                 is_default = name in _RELEASED_NAMES or name in (node.program, _default(node))
-                if is_default and unused not in _RELEASED_NAMES:
+                if node.name is None or (is_default and unused not in _RELEASED_NAMES):
                     yield by_file[file], span_of(by_file[file], key), message
                 else:
                     yield node.source, _span(node), message
     yield from _unmanaged(model, nodes, {each for each in started if each}, reported)
 
 
-def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], started: set[str]) -> str:
+def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], started: set[str], model: Model) -> str:
     """Return the only section without a node whose parameters the node has, if no other node lacks it; else empty."""
-    accepted = parameters_of(_default(node))
+    accepted = parameters_of(_default(node)) or _quoted(node, model)
     found = []
     for section, group in sections(file):
         name = section.last_name
@@ -125,6 +127,17 @@ def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], start
     named = {key.last_name for key, _ in sections(file)}
     alike = [each for each in readers if each.program == node.program and name_of_node(each) not in named]
     return found[0] if len(found) == len(alike) == 1 else ""
+
+
+def _quoted(node: LaunchedNode, model: Model) -> frozenset[str]:
+    """Return the texts in the file of a node of the workspace, which contain the names of its parameters."""
+    folder = neighbours(model.package).get(node.package) if model.package is not None else None
+    if folder is None or not node.program:
+        return frozenset()
+    model.expanded.packages.watch(folder)
+    stem = node.program.removesuffix(".py")
+    texts = [text for path, text in code_texts(folder, CODE, LAUNCH) if path.stem == stem]
+    return frozenset(re.findall(r"[\"']([\w.]+)[\"']", texts[0])) if len(texts) == 1 else frozenset()
 
 
 def name_of_node(node: LaunchedNode) -> str:

@@ -105,6 +105,8 @@ def _replaced(command: CMakeCommand, lists: dict[str, _Words]) -> CMakeCommand:
     for word, start in command.words:
         use = re.fullmatch(r"\$\{(\w+)\}", word)
         replaced = lists.get(use[1], ()) if use is not None else ()
+        first = re.match(r"\$\{(\w+)\}", word)
+        start = lists[first[1]][0][1] if first is not None and first[1] in single else start
         words += replaced or ((re.sub(r"\$\{(\w+)\}", value, word), start),)
     return CMakeCommand(command.name, command.start, tuple(words))
 

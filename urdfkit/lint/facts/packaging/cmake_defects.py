@@ -81,6 +81,7 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
     yield from _calls(source, every)
     yield from _order(source, every)
     yield from _variables(source, every)
+    yield from _targets(source, every)
     for command in every:
         words = [word for word, _ in command.words]
         misspelt = misspelt_word(command)
@@ -126,6 +127,53 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
             continue
         if is_whole and is_destination and re.fullmatch(r"PROJECT(_\w+)?|CATKIN_(PACKAGE|GLOBAL)_\w+", name):
             yield BuildDefect(source, use.start(1), name, f"variable `{name}` does not exist")
+
+
+_ADDING = ("add_executable", "add_library", "add_custom_target", "ament_auto_add_executable", "ament_auto_add_library")
+_OF_TARGET = (
+    *("target_link_libraries", "ament_target_dependencies", "target_include_directories", "target_compile_features"),
+    *("target_compile_definitions", "target_compile_options", "target_sources", "rclcpp_components_register_node"),
+    *("rclcpp_components_register_nodes",),
+)
+"""Commands whose first argument is a target of the package."""
+
+_MAKING = r"include|add_subdirectory|function|macro|foreach|\w*add_module|\w*_add_\w+|generate_\w+|rosidl_\w+|add_\w+"
+"""Matches commands that can define further targets."""
+
+
+def _targets(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
+    """Yield the targets that a command uses and none defines; where several do, the definition with another name."""
+    from urdfkit.lint.fix_builders import nearest
+
+    project = next((each.words[0][0] for each in every if each.name == "project" and each.words), "")
+
+    def named(word: str) -> str:
+        return re.sub(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}", project, word)
+
+    defined = {named(each.words[0][0]): each.words[0] for each in every if each.name in _ADDING and each.words}
+    others = {each.name for each in every} - {*_ADDING, "add_dependencies", "add_definitions", "add_compile_options"}
+    is_open = any(
+        re.fullmatch(_MAKING, name) and not re.search(r"test|message|service|action", name) for name in others
+    )
+    if not defined or is_open or any("$" in name for name in defined):
+        return
+    uses: list[tuple[str, int]] = []
+    for each in every:
+        words = each.words[:1] if each.name in _OF_TARGET else ()
+        if each.name == "install" and each.words and each.words[0][0] == "TARGETS":
+            end = next((at for at, (word, _) in enumerate(each.words) if at and word.isupper()), len(each.words))
+            words = each.words[1:end]
+        uses += ((named(word), start) for word, start in words)
+    missing = [(name, start) for name, start in uses if name not in defined and not re.search(r"[$:]", name)]
+    unused = [name for name in defined if name not in {use for use, _ in uses}]
+    names = {name for name, _ in missing}
+    if len(missing) > 1 and len(names) == len(unused) == 1:
+        word, start = defined[unused[0]]
+        yield BuildDefect(source, start, word, f"the other commands call this target `{missing[0][0]}`")
+        return
+    for name, start in missing[: 1 if len(names) == 1 else None]:
+        near = unused[0] if len(unused) == 1 else nearest(name, sorted(defined), cutoff=0.5)
+        yield BuildDefect(source, start, name, f"no command defines the target `{name}`" + Suggestion(near, name))
 
 
 def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:

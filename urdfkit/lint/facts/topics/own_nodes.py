@@ -21,7 +21,7 @@ _OTHER_PUBLISHERS = (
 )
 """Matches code that publishes in another way, or on topics that it computes."""
 
-_IN_CPP = r"\b(?:{})\b\s{{0,80}}(?:<([\w:\s]{{1,200}})>\s{{0,80}}\(\s{{0,80}}(?:\"([\w/~]+)\")?)?"
+_IN_CPP = r"\b(?:{})\b\s{{0,80}}(?:<([\w:\s]{{1,200}})>\s{{0,80}})?\(\s{{0,80}}(?:\"([\w/~]+)\")?"
 _PUBLISHERS = ("create_publisher", "create_lifecycle_publisher", "Publisher", "advertise")
 _SUBSCRIBERS = ("create_subscription", "Subscriber", "subscribe")
 _SENSOR_MESSAGES = (

@@ -24,8 +24,8 @@ def unpaired(model: Model) -> Iterator[tuple[End, str]]:
     """Yield each end whose topic no other node has, with the message: a reader without publisher, or the reverse.
 
     A topic that any other file names is accepted. An end is reported if one other end of its type is without
-    counterpart too, if it reads a sensor and all publishers of the type are published, or if it has the commands of the
-    drive, which reads another topic.
+    counterpart too, if it reads a sensor and all publishers of the type are in these packages, or if it has the
+    commands of the drive, which reads another topic.
     """
     ends = own_ends(model)
     if not ends:
@@ -42,7 +42,7 @@ def unpaired(model: Model) -> Iterator[tuple[End, str]]:
     in_namespaces, has_components = has_namespaces(model), starts_components(model)
 
     def is_lone(end: End) -> bool:
-        """Return whether no node is published to have the topic of an end on the other side."""
+        """Return whether no other node has the topic of an end on the other side."""
         others = topics[not end.publishes] | (inputs if end.publishes else published)
         if not end.topic or not end.type or not end.is_launched or end.topic in others | _EVERYWHERE:
             return False

@@ -40,7 +40,8 @@ class BuildFileInconsistent(RobotRule):
     In CMakeLists.txt, checks the syntax, the project name, the order of calls, the call of ``ament_package()`` or
     ``catkin_package()``, and the spelling of commands, variables and packages. Reports missing files and folders that
     ``install`` or a test names. Also reports folders and scripts that launch files use but that are not installed, or
-    are installed in the wrong place.
+    are installed in the wrong place. The source files of targets must exist, and the commands of a target must name one
+    that is defined.
 
     Checks the name, the version, ``packages``, ``data_files`` and the modules of console scripts in setup.py, and the
     script folders in setup.cfg.
@@ -114,6 +115,8 @@ class BuildFileInconsistent(RobotRule):
                         yield self._at(source, start, word, f"unknown package `{word}`" + Suggestion(suggestion, word))
             if command.name in ("install", "catkin_install_python"):
                 yield from self._install(files, source, command)
+            elif command.name in ("add_executable", "add_library"):
+                yield from self._sources(files, source, command)
             elif len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
                 word, start = command.words[at]
                 if "." in word or near_path(files.folder / word):  # tests may be generated into another folder
@@ -150,6 +153,14 @@ class BuildFileInconsistent(RobotRule):
             if word in OPTIONS or (misspelt is not None and start == misspelt[1]):
                 return
             yield from self._existing(files, source, word, start)
+
+    def _sources(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
+        """Yield a finding for each source file that does not exist in a folder with other files in C++."""
+        is_generated = re.search(r"add_custom_command|configure_file|\bwrap_", source.text) is not None
+        for word, start in command.words[1:] if not is_generated else ():
+            folder = (files.folder / word).parent
+            if re.fullmatch(r"[\w./-]+\.(?:c|cc|cpp|cxx)", word) and any(folder.glob("*.c*")):
+                yield from self._existing(files, source, word, start)
 
     def _existing(self, files: BuildFiles, source: Source, word: str, start: int) -> Findings:
         if "$" not in word and not files.has(word):

@@ -58,7 +58,8 @@ class TopicUnconnected(RobotRule):
         loops = list(self_readers(model))
         # Otherwise the commands that the loop leaves without a reader are its consequence.
         unread = unread_commands(model) if not loops else ()
-        misnamed = (*misnamed_remappings(model), *misnamed_in_code(model))
+        of_code = list(misnamed_in_code(model))
+        misnamed = (*misnamed_remappings(model), *of_code)
         for kind, defects in (("remapping", misnamed), ("loop", loops), ("unread", unread)):
             for source, name, message in defects:
                 found = self.at_span(source.span(name.start, name.end), message, kind=kind)
@@ -74,7 +75,8 @@ class TopicUnconnected(RobotRule):
             yield self.at_span(span, message, kind="namespace", names=(topic,))
         for source, value, message in unconnected_monitors(model):
             yield self.at_span(span_of(source, value), message)
-        for end, message in unpaired(model):
+        # A topic of the code can be without a counterpart because its remapping has another name.
+        for end, message in unpaired(model) if not of_code else ():
             names = (end.topic,)
             yield self.at_span(end.source.span(end.start, end.end), message, kind="own", names=names)
         for source, value, near, message in unfed_mux_topics(model):
