@@ -36,7 +36,7 @@ from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import AT_HIGH, AT_LOW, HOLDS, SLIDES
 
 STEPS = 30
-"""Most steps of Newton's method in a round."""
+"""Most steps of Newton's method in a round of an island that is no heap."""
 SEARCHES = 8
 """Most places along a step that the line search evaluates."""
 
@@ -113,10 +113,11 @@ def slope(w: KernelWorld, rows: int, share: float, ahead: int) -> float:
 
 
 @compiled
-def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int:
+def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float, most: int) -> int:
     """Go to the minimum of a round, until but this part of the impulses is out of balance; return the steps taken.
 
-    For each row, y is the velocity with the correction, and x the impulse at that velocity.
+    It takes no more than `most` steps. For each row, y is the velocity with the correction, and x the impulse at that
+    velocity.
     """
     speeds, speed, rest, exerted, inertia = w.y, w.block_v, w.block_f, w.velocity, w.sum_v
     momentum = w.sum_s
@@ -124,7 +125,7 @@ def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int
     for d in range(n):
         momentum[d] = 0.0
     take_momentum(w, root, speed, momentum)
-    for taken in range(STEPS):
+    for taken in range(most):
         for d in range(n):
             rest[d] = momentum[d]
         largest = classify(w, rows, rest)
@@ -172,7 +173,7 @@ def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int
             momentum[d] += share * inertia[d]
         for k in range(rows):
             speeds[k] += share * w.A[ahead + k]
-    return STEPS
+    return most
 
 
 @compiled

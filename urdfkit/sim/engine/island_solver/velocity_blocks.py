@@ -37,7 +37,7 @@ FAST = 0.1
 in few convex problems."""
 FAILURES, LONGEST = 2, 4
 """Guesses in turn that fail before the next are left out, and most steps in which that is done: where boxes jam, nine
-of ten guesses after two failures fail."""
+of ten guesses after two failures fail. The same for the rounds of a heap, as where a robot pushes boxes."""
 
 
 @inlined
@@ -85,7 +85,7 @@ def take_up(w: KernelWorld, rows: int) -> None:
 
 @inlined
 def guesses_again(w: KernelWorld, root: int) -> bool:
-    """Return whether the active set of an island of several trees is guessed, or is left out after failures."""
+    """Return whether an island's active set is guessed, or a heap gets rounds: both are left out after failures."""
     if w.unguessed[2 * root + 1] == 0:
         return True
     w.unguessed[2 * root + 1] -= 1
@@ -94,7 +94,7 @@ def guesses_again(w: KernelWorld, root: int) -> bool:
 
 @inlined
 def note_guess(w: KernelWorld, root: int, failed: bool) -> None:
-    """Count the guesses that failed in turn, and set in how many steps none is made."""
+    """Count the guesses, or a heap's rounds, that failed in turn, and set in how many steps none is made."""
     failures = w.unguessed[2 * root] + 1 if failed else 0
     w.unguessed[2 * root] = failures
     w.unguessed[2 * root + 1] = min(LONGEST, max(0, failures - FAILURES + 1))
@@ -161,7 +161,7 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
         take_up(w, rows)
     if done == 0 and fast:
         done = -solve_augmented(w, root, rows, n, tiny)
-    if done == 0:
+    if done == 0 and (rows <= HEAP or guesses_again(w, root)):
         # At the velocities of the last step, that is, at rest where it was.
         tree = root
         while tree >= 0:
@@ -171,6 +171,8 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
                 speed[at + d - first] = -w.u[d]
             tree = w.island_next[tree]
         done = -go_round(w, root, rows, n, tiny, most)
+        if rows > HEAP:
+            note_guess(w, root, done == 0)
     tree = root
     while tree >= 0:
         first = w.tree_dof[tree]
