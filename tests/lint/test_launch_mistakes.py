@@ -893,3 +893,63 @@ def test_the_code_is_read_once_for_all_remapped_descriptions(tmp_path, monkeypat
         assert sum("is without a description" in row[2] for row in found(cart, "K980")) == count
         counts.append(len(reads))
     assert counts[0] == counts[1]
+
+
+SIMULATED = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, RegisterEventHandler
+from launch.conditions import IfCondition
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    gazebo = PathJoinSubstitution([FindPackageShare("ros_gz_sim"), "launch", "gz_sim.launch.py"])
+    slam = Node(
+        package="slam_toolbox", executable="sync_slam_toolbox_node", name="slam",
+        parameters=[{"use_sim_time": True}],
+        condition=IfCondition(LaunchConfiguration("slam")),
+    )
+    spawn = Node(package="ros_gz_sim", executable="create", arguments=["-topic", "robot_description"])
+    return LaunchDescription([
+        DeclareLaunchArgument("slam", default_value="true"),
+        IncludeLaunchDescription(PythonLaunchDescriptionSource(gazebo)),
+        spawn,
+        RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[slam])),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({}, []),
+        ({"True": "False"}, [16]),
+        ({"True": "False", '"slam")': '"use_real_robot")', '"slam",': '"use_real_robot",'}, []),
+        ({"OnProcessExit(": "OnProcessStart(", "import OnProcessExit": "import OnProcessStart"}, [24]),
+    ],
+)
+def test_the_clock_and_the_handlers_of_a_conditional_node(tmp_path, changes, expected):
+    cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim", "slam_toolbox")
+    text = SIMULATED
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    write(cart / "launch/cart.launch.py", text)
+    assert [line for _, line, _ in found(cart, "L121", "L106", "L105")] == expected
+
+
+@pytest.mark.parametrize(
+    ("condition", "expected"), [("", [15]), ('condition=IfCondition(LaunchConfiguration("slam"))', [])]
+)
+def test_a_node_without_the_clock_next_to_gazebo(tmp_path, condition, expected):
+    cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim", "slam_toolbox")
+    text = SIMULATED.replace(
+        'parameters=[{"use_sim_time": True}],', 'parameters=[{"mode": "mapping"}],  # use_sim_time'
+    )
+    text = text.replace('condition=IfCondition(LaunchConfiguration("slam"))', condition or "output='screen'")
+    write(cart / "launch/cart.launch.py", text)
+    assert [line for _, line, _ in found(cart, "L121")] == expected

@@ -111,6 +111,9 @@ _OF_XML = {
 OF_FOXY = {"node_executable": "executable", "node_name": "name", "node_namespace": "namespace", "node_plugin": "plugin"}
 """Keyword of nodes until Foxy, which Galactic removed → the keyword that replaces it (launch_ros 0.12)."""
 
+_OF_OTHER_EVENT = {"on_exit": "on_start", "on_start": "on_exit"}
+"""Keyword of the handler of one event of a process → keyword of the other handler."""
+
 LISTS = frozenset(("arguments", "cmd", "parameters", "remappings", "ros_arguments"))
 """Keywords of nodes and processes whose values are lists."""
 
@@ -156,7 +159,7 @@ def wrong_keyword(kind: str, word: str) -> str | None:
     valid = _KEYWORDS.get(kind, "").split()
     if not valid or word in valid:
         return None
-    meant = _OF_XML.get(word) or OF_FOXY.get(word)
+    meant = _OF_XML.get(word) or OF_FOXY.get(word) or _OF_OTHER_EVENT.get(word)
     return meant if meant in valid else nearest(word, valid, cutoff=0.75)
 
 

@@ -64,14 +64,20 @@ def without_clock(model: Model) -> Defects:
             if node.inline is None or _KEY in node.inline or not is_unset or not _is_timed(node):
                 continue
             other = next((each for each in setting if _family(each) == _family(node)), None)
-            if other is None and not node.is_conditional and _family(node) in (*_STOPPED, "nav2"):
+            if other is None and _needs_clock(node):
                 other = next((each for each in setting if _family(each) in (*_WITNESSES, "nav2")), None)
+            label = node.name.name if node.name is not None else node.program
             is_python = node.source.file.endswith(".py")
             at = (None if is_python else _name_place(node)) or node.place
             if other is not None and at is not None:
-                label = node.name.name if node.name is not None else node.program
                 same = "the other " if node.program == other.program else ""
                 yield source, at, f"node `{label}` has no `{_KEY}`, but {same}`{other.program}` has it"
+            elif at is not None and _needs_clock(node) and _starts_gazebo(source, model):
+                yield source, at, f"node `{label}` has no `{_KEY}`, but this file starts Gazebo"
+
+
+def _needs_clock(node: LaunchedNode) -> bool:
+    return not node.is_conditional and _family(node) in (*_STOPPED, "nav2")
 
 
 def computer_time(model: Model) -> Defects:
@@ -179,7 +185,12 @@ def _in_python(source: Source, tree: ast.Module) -> Defects:
             yield source, place(source, default), _message()
         package = reader.text(words["package"]) if "package" in words else None
         is_timed = name_of(call.func) == "Node" and (package in _TIMED or (package or "").startswith("nav2_"))
-        if "condition" in words or not (is_timed or name_of(call.func) == "IncludeLaunchDescription"):
+        condition = words.get("condition")
+        names = [each.id for each in ast.walk(condition) if isinstance(each, ast.Name)] if condition is not None else []
+        written = [value for value in (condition, *map(reader.assigned.get, names)) if value is not None]
+        if any(re.search(_OF_CLOCK, ast.unparse(value)) for value in written):
+            continue
+        if not (is_timed or name_of(call.func) == "IncludeLaunchDescription"):
             continue
         for part in (words.get("launch_arguments"), words.get("parameters")):
             named = [reader.assigned.get(each.id) for each in getattr(part, "elts", ()) if isinstance(each, ast.Name)]
