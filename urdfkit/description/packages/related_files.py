@@ -111,10 +111,12 @@ def _version(file: str) -> str:
 def around(package: Path) -> list[Path]:
     """Return the launch files, YAML, SRDF and build files of a package, and of neighbours that depend on it.
 
-    Of a folder without a package.xml, only the SRDF files in it.
+    Of a folder without a package.xml, only the SRDF files in it and in the folder ``srdf`` next to it.
     """
     if not (package / "package.xml").is_file():
-        return sorted(file for end in SRDF for file in package.glob(f"*{end}") if file.is_file())[:_MAX_FILES]
+        folders = (package, package.parent / "srdf")
+        found = (file for folder in folders for end in SRDF for file in folder.glob(f"*{end}") if file.is_file())
+        return sorted(found)[:_MAX_FILES]
     near = neighbours(package)
     own = packages_around(package, near, {other: dependencies_in(manifest(folder)) for other, folder in near.items()})
     files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]

@@ -39,7 +39,7 @@ _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""
 
 _ON_PARAMETERS = (
     *("K956", "K958", "K959", "K960", "K962", "K967", "K969", "K971", "K974", "K975", "K977", "K979", "K981", "K982"),
-    *("K983", "K984", "K985", "M108", "M109", "M111", "M112"),
+    *("K961", "K983", "K984", "K985", "L104", "M108", "M109", "M111", "M112"),
 )
 """Codes of findings in YAML with a more precise message than a comparison with the other entries of a file."""
 
@@ -63,6 +63,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K968", ""), "line", ("K980", "")),
     (("K969", ""), "line", ("K977", "")),
     *(((code, ""), "line", ("K992", "")) for code in _ON_PARAMETERS),
+    (("K992", ""), "meant", ("K962", "")),
     (("K971", ""), "line", ("K956", "")),
     (("K971", ""), "line", ("K974", "")),
     (("K971", ""), "line", ("K977", "")),

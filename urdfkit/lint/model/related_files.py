@@ -39,6 +39,8 @@ def related_files(
         files.update(dict.fromkeys(packages.around(other)))
         packages.watch(other)
     files.update(dict.fromkeys(configured))
+    if not any(file.name.endswith(SRDF) for file in files):
+        files.update(dict.fromkeys(_of_included(expanded, package)))
     found: dict[str, Source] = {}
     roots: dict[str, Element] = {}
     for file in files:
@@ -52,6 +54,14 @@ def related_files(
         except ResourceError:
             continue
     return found, roots
+
+
+def _of_included(expanded: Expanded, package: Path | None) -> list[Path]:
+    """Return the SRDF files of the other packages from which the description includes files."""
+    sources = [Path(file) for file in expanded.sources]
+    folders = dict.fromkeys(package_of(file) for file in sources if file.suffix == ".xacro")
+    others = [folder for folder in folders if folder is not None and folder != package]
+    return [file for folder in others for file in expanded.packages.around(folder) if file.name.endswith(SRDF)]
 
 
 def _semantic_description(

@@ -160,15 +160,19 @@ def repeated_joints(node: Node) -> Iterator[tuple[Node, str, tuple[str, ...]]]:
         listed: set[str] = set()
         for item in value.items if key.text in ("joints", "left_wheel_names", "right_wheel_names") else ():
             if item.text and item.text in listed:
-                lacking = _without_entry(value, node.find("constraints"))
+                lacking = next(filter(None, (_without_entry(value, node.find(name)) for name in _OF_JOINTS)), "")
                 hint = f"; `{lacking}` is missing" if lacking else ""
                 yield item, f"`{item.text}` occurs twice in `{key.text}`" + hint, (lacking,) if lacking else ()
             listed.add(item.text)
 
 
-def _without_entry(joints: Node, constraints: Node | None) -> str:
-    """Return the only name with tolerances that a list of joints lacks; empty if there is no such name."""
-    named = [key.text for key, value in constraints.entries if value.kind == "group"] if constraints is not None else []
+_OF_JOINTS = ("constraints", "gains")
+"""Parameters of controllers with a group for each joint."""
+
+
+def _without_entry(joints: Node, group: Node | None) -> str:
+    """Return the only name with tolerances or gains that a list of joints lacks; empty if there is no such name."""
+    named = [key.text for key, value in group.entries if value.kind == "group"] if group is not None else []
     lacking = [name for name in named if name not in joints.texts()]
     return lacking[0] if len(lacking) == 1 else ""
 

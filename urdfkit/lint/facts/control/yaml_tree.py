@@ -171,7 +171,7 @@ def documents_in(text: str) -> tuple[tuple[Node, ...], Broken | None]:
         line = text.count("\n", 0, deep.start()) + 1
         return (), Broken(line, deep.start() - text.rfind("\n", 0, deep.start()), "nested too deeply")
     try:
-        for document in yaml.compose_all(text, Loader=loader_of(text)):
+        for document in yaml.compose_all(str(text), Loader=loader_of(text)):  # LibYAML refuses subclasses
             found.append(_Reader().node(document, 0))
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark

@@ -105,6 +105,11 @@ def _ranges() -> dict[str, list[_Row]]:
     return found
 
 
+def range_names() -> Iterable[str]:
+    """Return the parameters with a range."""
+    return _ranges()
+
+
 def groups_of_launch(source: Source) -> list[Node]:
     """Return the constant parameters of each node in an XML or YAML launch file, as in a parameter file."""
     found = []

@@ -20,6 +20,7 @@ from urdfkit.lint.facts.control.ros_gz_bridges import (
     pairs,
 )
 from urdfkit.lint.facts.gazebo.sensor_topics import published
+from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -86,7 +87,9 @@ class BridgeMisspelt(RobotRule):
                 bridges.append((source, bridge))
                 names = [key.text for key in keys]
                 for parameter, others in REQUIRED.items():
-                    if not any(nearest(each, names, cutoff=0.85) for each in (parameter, *others)):
+                    known = (parameter, *others)
+                    is_misspelt = any(is_slip(name, each) for name in names for each in known)
+                    if not is_misspelt and not any(nearest(each, names, cutoff=0.85) for each in known):
                         message = f"bridge has no `{parameter}`"
                         yield self.at_span(span_of(source, keys[0]), message)
                 for key in keys:
@@ -257,7 +260,6 @@ def _misnamed_sensor(source: Source, reference: Named, meant: str, model: Model)
     A slip in the bridge would make its names differ.
     """
     from urdfkit.lint.facts.control.yaml_tree import documents, yamls
-    from urdfkit.lint.facts.ros_packages import is_slip
 
     entries = [item for root in documents(source) for item in root.items] if source in yamls(model) else []
     used, named = reference.name.strip("/"), meant.strip("/")

@@ -13,7 +13,8 @@ class ParameterUnlikeOthers(RobotRule):
     - lists of numbers that are one value longer or shorter than the lists of the other sections
     - names in a list without a section, next to a section that the list does not name
     - names that occur twice in a list of joints, plugins or controllers
-    - misspelt joints of the robot in the parameters of any node
+    - misspelt joints and frames of the robot, and misspelt parameters, in the parameters of any node
+    - sections that lack a key of all others, minima above their maxima, and the only key without underscores
     - Booleans and numbers in quotes, and negative rates and sizes
 
     Entries that a rule for their node reports are left out.
@@ -42,10 +43,11 @@ class ParameterUnlikeOthers(RobotRule):
         """Yield a finding for each entry, one for each line."""
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.facts.parameters.odd_entries import odd_entries
+        from urdfkit.lint.facts.parameters.odd_values import odd_values
 
         for source in yamls(model):
             lines = set[int]()
-            for place, message in odd_entries(source, model):
+            for place, message in (*odd_values(source, model), *odd_entries(source)):
                 if place.line not in lines:
                     lines.add(place.line)
                     yield self.at_span(span_of(source, place), message)

@@ -1,0 +1,225 @@
+"""Values and names in YAML files that no node accepts or that stand alone, without a table of a node.
+
+Values in quotes, negative rates and sizes, minima above their maxima, keys in another style, misspelt frames, joints
+and parameters, and names that a list has twice.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache, lru_cache
+
+from urdfkit.defect_message import Suggestion
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
+from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.model.model import Model
+
+Defects = Iterator[tuple[Node, str]]
+
+_SHORTEST = 4
+"""Smallest number of letters of a name that is compared."""
+
+_NAME = r"(?:\$\([^()]*\))?[A-Za-z_][\w/:.-]*"
+_LISTS_OF_NAMES = (
+    r"(?:\w+_)?plugins|observation_sources|polygons|critics|filters|sensors|(?:command_|state_)?interfaces|joints"
+    r"|(?:controller_)?joint_names|(?:controller|node|wheel|link|interface)_names|re(?:quest|sponse)_adapters|links"
+)
+"""Matches lists whose entries are all different."""
+
+_TEXTS = (
+    r"(?i).*(?:name|id|serial|version|port|device|code|address|ip|text|label|topic|prefix|suffix|frame|date|model|key"
+    r"|path|file|uri|url|namespace|value|ns|arguments|args|default|color|colour|bus|channel|desc\w*)s?\d*"
+)
+"""Matches parameters whose values are texts, also if they look like numbers."""
+
+_POSITIVE = (
+    r"(?:.*_)?(?:rate|frequency|radius|separation|resolution|tolerance|period|wheelbase|multiplier|priority|timeout)"
+)
+"""Matches parameters that are not negative; -1 stands for a default."""
+
+_FOLDERS = r"/(?:config|configs|cfg|params?|parameters|yaml)/[^/]*$"
+"""Matches files in a folder of parameters."""
+
+_BOUNDS = ((r"(?<![a-z])min(?![a-z])", "max"), (r"(?<![a-z])lower(?![a-z])", "upper"))
+"""Words of parameters that are lower bounds, and those of their upper bounds."""
+
+_CAMEL = r"[a-z]+[a-z0-9]*(?:[A-Z][a-z0-9]+)+"
+_SNAKE = r"[a-z0-9]+(?:_[a-z0-9]+)+"
+_OF_OMPL = "frountierNodeRatio"
+_FEWEST_OF_STYLE = 6
+"""Smallest number of keys with underscores next to which a key in another style is misspelt."""
+
+_FRAMES = ("map", "odom", "base_link", "base_footprint", "world")
+
+
+def odd_values(source: Source, model: Model) -> Defects:
+    """Yield the values and names of a YAML file that no node accepts or that stand alone, with a message."""
+    is_parameter_file = PARAMETERS in source.text or re.search(_FOLDERS, source.file) is not None
+    groups = [node for node in nodes(source) if node.entries]
+    for node in groups:
+        if is_parameter_file:
+            yield from _quoted_or_negative(node)
+        yield from _reversed(node)
+        yield from _misspelt_joints(node, model)
+        yield from _misspelt_frames(node, model)
+        yield from _misspelt_parameters(node)
+        for key, value in node.entries:
+            if re.fullmatch(_LISTS_OF_NAMES, key.text):
+                yield from _repeated(key, value)
+            yield from _unlike_numbered(key, value)
+    yield from _other_style(groups, model)
+
+
+def _quoted_or_negative(node: Node) -> Defects:
+    for key, value in node.entries:
+        for item in value.items if value.kind == "list" else (value,):
+            name, number = key.text.rpartition(".")[2], number_of(item) if item.kind == "text" else None
+            if item.kind == "text" and not item.is_plain and item.text in ("true", "false", "True", "False"):
+                yield item, f'`{key.text}` is "{item.text}", a quoted string; write {item.text.lower()}'
+            elif number is not None and not item.is_plain and "\n" not in item.text and not re.fullmatch(_TEXTS, name):
+                yield item, f'`{key.text}` is "{item.text}", a quoted string; write {item.text}'
+            elif number is None or not re.fullmatch(_POSITIVE, name) or value is not item:
+                continue
+            elif number < 0.0 and number != -1.0:
+                yield item, f"`{key.text}` is {item.text}; it must not be negative"
+
+
+def _reversed(node: Node) -> Defects:
+    """Yield the lower bounds above their upper bounds."""
+    for key, value in node.entries:
+        low = number_of(value) if value.kind == "text" else None
+        for word, other in _BOUNDS if low is not None else ():
+            name = re.sub(word, other, key.text, count=1)
+            above = node.find(name) if name != key.text else None
+            high = number_of(above)
+            if low is not None and above is not None and high is not None and low > high:
+                place = above if high < 0.0 <= low else value
+                yield place, f"`{key.text}` is {low:g}, more than `{name}`, {high:g}"
+
+
+def _misspelt_frames(node: Node, model: Model) -> Defects:
+    """Yield the frames that differ by a letter from a usual frame or a link of the robot."""
+    links = model.robot.link_by_name
+    for key, value in node.entries:
+        if not re.search(r"(?:^|_)frame(?:_id)?$", key.text) or value.kind != "text" or not value.text:
+            continue
+        name = value.text.strip("/")
+        if name in links or name in _FRAMES or len(name) < 3 or "$" in name:
+            continue
+        near = next((each for each in (*_FRAMES, *links) if is_slip(name, each)), None)
+        if near is not None and not model.neighbouring_descriptions.define("link", name):
+            yield value, f"unknown frame `{name}`" + Suggestion(near, name)
+
+
+@cache
+def _known() -> dict[int, tuple[str, ...]]:
+    """Return the parameters of all nodes in the tables, by the number of their letters."""
+    from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1, DOUBLES, INTEGERS, ORDERED, OTHERS, SWITCHES
+    from urdfkit.lint.facts.parameters.ranges import range_names
+    from urdfkit.lint.facts.parameters.schemas import OF_ROS1, schemas
+
+    names = {
+        *COSTMAP_ROS1,
+        *DOUBLES,
+        *INTEGERS,
+        *OTHERS,
+        *SWITCHES,
+        *range_names(),
+        *(n for pair in ORDERED for n in pair),
+    }
+    names |= {name.rpartition(".")[2] for rows in schemas().values() for name, _ in rows}
+    names |= {name for renamed in OF_ROS1.values() for name in renamed.values()}
+    found: dict[int, list[str]] = {}
+    for name in sorted(name for name in names if "*" not in name and len(name) >= 6):
+        found.setdefault(len(name), []).append(name)
+    return {length: tuple(each) for length, each in found.items()}
+
+
+@lru_cache(maxsize=4000)
+def _nearest_known(name: str) -> str:
+    """Return the parameter of any node in the tables that a name differs from by a slip; empty if there is none."""
+    known = _known()
+    if name in known.get(len(name), ()):
+        return ""
+    lengths = range(len(name) - 1, len(name) + 4 if re.fullmatch(_CAMEL, name) else len(name) + 2)
+    return next((each for length in lengths for each in known.get(length, ()) if is_slip(name, each)), "")
+
+
+def _misspelt_parameters(node: Node) -> Defects:
+    """Yield the keys that differ by a slip from a parameter in the tables, next to at least three of these."""
+    names = {key.text for key, _ in node.entries}
+    known = _known()
+    if sum(name in known.get(len(name), ()) for name in names) < 3:
+        return
+    for key, value in node.entries:
+        near = _nearest_known(key.text) if len(key.text) > 5 and value.kind != "group" else ""
+        if near and near not in names:
+            yield key, f"unknown parameter `{key.text}`" + Suggestion(near, key.text)
+
+
+def _other_style(groups: list[Node], model: Model) -> Defects:
+    """Yield the only key of a file without underscores whose words start with capitals."""
+    keys = [(key, value) for node in groups for key, value in node.entries]
+    camel = [(key, value) for key, value in keys if re.fullmatch(_CAMEL, key.text) and key.text != _OF_OMPL]
+    names = {key.text for key, _ in keys if re.fullmatch(_SNAKE, key.text)}
+    if len(camel) != 1 or len(names) < _FEWEST_OF_STYLE:
+        return
+    (key, value), *_ = camel
+    if value.kind != "group" and key.text not in model.robot.joint_by_name and key.text not in model.robot.link_by_name:
+        right = re.sub(r"[A-Z]", lambda at: f"_{at[0].lower()}", key.text)
+        yield key, f"the other keys of this file have underscores, unlike `{key.text}`" + Suggestion(right, key.text)
+
+
+def _repeated(key: Node, value: Node) -> Defects:
+    """Yield the names that a list has twice."""
+    seen = set[str]()
+    for item in value.items:
+        if item.text in seen and re.fullmatch(_NAME, item.text):
+            yield item, f"`{item.text}` occurs twice in `{key.text}`"
+        seen.add(item.text)
+
+
+def _unlike_numbered(key: Node, value: Node) -> Defects:
+    """Yield the name of a list that differs by a letter from the others, which differ only in their numbers."""
+    names = [item for item in value.items if item.text]
+    if len(names) < 3 or not all(re.search(r"\d", item.text) for item in names):
+        return
+    stems = Counter(re.sub(r"\d+", "", item.text) for item in names)
+    (usual, times), *_ = stems.most_common(1)
+    if len(stems) != 2 or times != len(names) - 1 or len(usual) < _SHORTEST:
+        return
+    odd = next(item for item in names if re.sub(r"\d+", "", item.text) != usual)
+    if is_slip(re.sub(r"\d+", "", odd.text), usual):
+        numbers = iter(re.findall(r"\d+", odd.text))
+        other = next(item.text for item in names if item is not odd)
+        right = re.sub(r"\d+", lambda at: next(numbers, at[0]), other)
+        yield odd, f"`{odd.text}` in `{key.text}` is written unlike the other names" + Suggestion(right, odd.text)
+
+
+def _misspelt_joints(node: Node, model: Model) -> Defects:
+    """Yield the misspelt names of joints in a list or group of joints of the robot, or in a parameter for a joint."""
+    joints = model.robot.joint_by_name
+    for key, value in node.entries:
+        names = [item for item in value.items if item.text]
+        if "joint" in key.text and (value.kind == "text" or len(names) == 1):
+            yield from _misspelt(names or [value], model)
+        elif len(names) > 1 and any(item.text in joints for item in names):
+            yield from _misspelt(names, model)
+    keys = [key for key, _ in node.entries]
+    if sum(key.text in joints for key in keys) > 1:
+        yield from _misspelt(keys, model)
+
+
+def _misspelt(names: list[Node], model: Model) -> Defects:
+    """Yield the names that differ by a slip from a joint of the robot that is not one of them."""
+    robot = model.robot
+    written = {name.text for name in names}
+    for name in names:
+        text = name.text
+        if text in robot.joint_by_name or text in robot.link_by_name or len(text) < _SHORTEST or "$" in text:
+            continue
+        near = next((each for each in robot.joint_by_name if each not in written and is_slip(text, each)), None)
+        if near is not None and not model.neighbouring_descriptions.define("joint", text):
+            yield name, f"joint `{text}` does not exist" + Suggestion(near, text)
