@@ -102,3 +102,33 @@ def test_a_mistake_in_a_group_has_one_finding(tmp_path, old, new, message):
     (tmp_path / "config" / "ompl_planning.yaml").write_text("gripper:\n  planner_configs: [RRT]\n")
     found = lint(tmp_path, select=("M104", "M105", "M107", "M108", "M109"))
     assert [f"{one.code} {one.message}" for one in found] == ([message] if message else [])
+
+
+ARM = """<robot name="arm">
+  <link name="base"/>
+  <link name="hand"/>
+  <joint name="wrist" type="fixed"><parent link="base"/><child link="hand"/></joint>
+</robot>
+"""
+CHAIN = """<robot name="arm">
+  <group name="arm"><chain base_link="base" tip_link="hand"/></group>
+  <passive_joint name="wrsit"/>
+</robot>
+"""
+
+
+def test_srdf_of_a_package_with_included_files_and_of_a_folder_without_a_package_is_read(tmp_path):
+    for name in ("cell", "arm_description"):
+        (tmp_path / name / "srdf").mkdir(parents=True)
+        manifest = f"<package format='3'><name>{name}</name><depend>arm_description</depend></package>"
+        (tmp_path / name / "package.xml").write_text(manifest)
+    (tmp_path / "arm_description" / "arm.xacro").write_text(ARM)
+    (tmp_path / "arm_description" / "srdf" / "arm.srdf").write_text(CHAIN)
+    xacro = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="{}"/></robot>'
+    (tmp_path / "cell" / "arm.urdf.xacro").write_text(xacro.format("$(find arm_description)/arm.xacro"))
+    assert [f.code for f in lint(tmp_path / "cell", select=("M104",))] == ["M104"]
+    (tmp_path / "plain" / "urdf").mkdir(parents=True)
+    (tmp_path / "plain" / "srdf").mkdir()
+    (tmp_path / "plain" / "urdf" / "arm.urdf").write_text(ARM)
+    (tmp_path / "plain" / "srdf" / "arm.srdf").write_text(CHAIN)
+    assert [f.code for f in lint(tmp_path / "plain" / "urdf" / "arm.urdf", select=("M104",))] == ["M104"]

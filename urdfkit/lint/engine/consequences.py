@@ -63,7 +63,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K968", ""), "line", ("K980", "")),
     (("K969", ""), "line", ("K977", "")),
     *(((code, ""), "line", ("K992", "")) for code in _ON_PARAMETERS),
-    (("K992", ""), "meant", ("K962", "")),
+    (("K992", "numbered"), "meant", ("K962", "")),
     (("K971", ""), "line", ("K956", "")),
     (("K971", ""), "line", ("K974", "")),
     (("K971", ""), "line", ("K977", "")),

@@ -1,5 +1,6 @@
 """Files related to a robot: launch files, YAML, SRDF and package files, with the text of each."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -39,13 +40,16 @@ def related_files(
         files.update(dict.fromkeys(packages.around(other)))
         packages.watch(other)
     files.update(dict.fromkeys(configured))
-    if not any(file.name.endswith(SRDF) for file in files):
-        files.update(dict.fromkeys(_of_included(expanded, package)))
+    included = () if any(file.name.endswith(SRDF) for file in files) else _of_included(expanded, package)
+    files.update(dict.fromkeys(included))
     found: dict[str, Source] = {}
     roots: dict[str, Element] = {}
     for file in files:
         try:
-            source = found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=texts)
+            source = read_source(file, shown_as=shown_path(file), texts=texts)
+            if file in included and not _describes(source.text, robot):
+                continue
+            found[shown_path(file)] = source
             if file.name.endswith(SRDF) and "<group" in source.text:
                 root, sources = _semantic_description(file, source, packages, texts)
                 found.update(sources)
@@ -62,6 +66,12 @@ def _of_included(expanded: Expanded, package: Path | None) -> list[Path]:
     folders = dict.fromkeys(package_of(file) for file in sources if file.suffix == ".xacro")
     others = [folder for folder in folders if folder is not None and folder != package]
     return [file for folder in others for file in expanded.packages.around(folder) if file.name.endswith(SRDF)]
+
+
+def _describes(text: str, robot: Robot) -> bool:
+    """Return whether most links in the pairs and chains of an SRDF exist in a robot."""
+    names = re.findall(r"(?:link1|link2|base_link|tip_link)\s*=\s*[\"']([^\"']*)", text)
+    return 5 * sum(name in robot.link_by_name for name in names) >= 4 * max(len(names), 1)
 
 
 def _semantic_description(

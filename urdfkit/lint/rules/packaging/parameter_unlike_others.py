@@ -50,4 +50,5 @@ class ParameterUnlikeOthers(RobotRule):
             for place, message in (*odd_values(source, model), *odd_entries(source)):
                 if place.line not in lines:
                     lines.add(place.line)
-                    yield self.at_span(span_of(source, place), message)
+                    kind = "numbered" if "unlike the other names" in message else ""
+                    yield self.at_span(span_of(source, place), message, kind=kind)
