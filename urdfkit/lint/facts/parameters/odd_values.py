@@ -114,7 +114,7 @@ def _misspelt_frames(node: Node, model: Model) -> Defects:
 
 
 @cache
-def _known() -> dict[int, tuple[str, ...]]:
+def _parameters_in_tables() -> dict[int, tuple[str, ...]]:
     """Return the parameters of all nodes in the tables, by the number of their letters."""
     from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1, DOUBLES, INTEGERS, ORDERED, OTHERS, SWITCHES
     from urdfkit.lint.facts.parameters.ranges import range_names
@@ -138,23 +138,23 @@ def _known() -> dict[int, tuple[str, ...]]:
 
 
 @lru_cache(maxsize=4000)
-def _nearest_known(name: str) -> str:
-    """Return the parameter of any node in the tables that a name differs from by a slip; empty if there is none."""
-    known = _known()
-    if name in known.get(len(name), ()):
+def _nearest_parameter(name: str) -> str:
+    """Return the parameter of any node in the tables that a name differs from by a slip, or an empty text."""
+    tabulated = _parameters_in_tables()
+    if name in tabulated.get(len(name), ()):
         return ""
     lengths = range(len(name) - 1, len(name) + 4 if re.fullmatch(_CAMEL, name) else len(name) + 2)
-    return next((each for length in lengths for each in known.get(length, ()) if is_slip(name, each)), "")
+    return next((each for length in lengths for each in tabulated.get(length, ()) if is_slip(name, each)), "")
 
 
 def _misspelt_parameters(node: Node) -> Defects:
     """Yield the keys that differ by a slip from a parameter in the tables, next to at least three of these."""
     names = {key.text for key, _ in node.entries}
-    known = _known()
-    if sum(name in known.get(len(name), ()) for name in names) < 3:
+    tabulated = _parameters_in_tables()
+    if sum(name in tabulated.get(len(name), ()) for name in names) < 3:
         return
     for key, value in node.entries:
-        near = _nearest_known(key.text) if len(key.text) > 5 and value.kind != "group" else ""
+        near = _nearest_parameter(key.text) if len(key.text) > 5 and value.kind != "group" else ""
         if near and near not in names:
             yield key, f"unknown parameter `{key.text}`" + Suggestion(near, key.text)
 

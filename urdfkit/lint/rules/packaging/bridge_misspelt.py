@@ -87,9 +87,9 @@ class BridgeMisspelt(RobotRule):
                 bridges.append((source, bridge))
                 names = [key.text for key in keys]
                 for parameter, others in REQUIRED.items():
-                    known = (parameter, *others)
-                    is_misspelt = any(is_slip(name, each) for name in names for each in known)
-                    if not is_misspelt and not any(nearest(each, names, cutoff=0.85) for each in known):
+                    accepted = (parameter, *others)
+                    is_misspelt = any(is_slip(name, each) for name in names for each in accepted)
+                    if not is_misspelt and not any(nearest(each, names, cutoff=0.85) for each in accepted):
                         message = f"bridge has no `{parameter}`"
                         yield self.at_span(span_of(source, keys[0]), message)
                 for key in keys:
