@@ -79,7 +79,7 @@ def test_a_cone_about_an_axis_and_the_summary(capsys: pytest.CaptureFixture[str]
     assert lines[0] == f"grasping_frame in world: {cells} cells of 0.2 m reached, {cells * 0.008:.3g} m³"
     assert lines[2].startswith("score: share of 8 orientations; mean ")
     code, out, err = ran(capsys, "seven_dof_arm", "shoulder_pitch_link", "--resolution", "0.2")
-    assert (code, out) == (1, "shoulder_pitch_link in world: no cell of 0.2 m reached\n")
+    assert (code, out) == (1, "shoulder_pitch_link reaches no cell of 0.2 m in world\n")
     assert "2 joints move `shoulder_pitch_link`; with fewer than six it reaches few orientations" in err
 
 

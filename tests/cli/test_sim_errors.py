@@ -287,6 +287,7 @@ def test_divergence_is_reported_with_time_and_joint(capsys: Capture, options: li
 OPTIONS = {
     ("--for", "-1"): "argument --for: `-1` is negative; it must be seconds, zero or more",
     ("--for", "soon"): "argument --for: `soon` is not a number",
+    ("--for", "10m"): "argument --for: `10m` is not a number; write it without a unit",
     ("--dt", "0"): "argument --dt: `0` must be greater than zero",
     ("--dt", "1"): "the time step is 1 s; it must be from 1e-6 to 0.1 s, such as 0.001",
     ("--seed", "-1"): "argument --seed: `-1` is not a seed; it must be a whole number, zero or more",
@@ -310,7 +311,7 @@ OPTIONS = {
         "--controllers",
         "arm.yaml",
     ): "argument --controllers: cannot read arm.yaml: no such file; did you mean `arms.yaml`?",
-    ("--topic-pub", "/cmd_vel"): 'argument --topic-pub: `/cmd_vel` is not "TOPIC TYPE YAML@T"',
+    ("--topic-pub", "/cmd_vel"): 'argument --topic-pub: `/cmd_vel` is incomplete; expected "TOPIC TYPE YAML@T"',
     ("--topic-pub", "/a geometry_msgs/Twist {linea: {x: 1}}"): "no field `linea` in geometry_msgs/msg/Twist; did you "
     "mean `linear`?",
 }

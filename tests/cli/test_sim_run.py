@@ -255,7 +255,7 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
         (["simpleton", "--for", "1", "--until", "__import__('os').abort()"], "is not allowed"),
         (["simpleton", "--for", "1", "--until", "2 ** 2 ** 99 > 1"], "is not allowed"),
         (["simpleton", "--for", "1", "--until", "1 / contacts > 1"], "division by zero"),
-        (["simpleton", "--for", "1", "--topic-pub", "/x"], '`/x` is not "TOPIC TYPE YAML@T"'),
+        (["simpleton", "--for", "1", "--topic-pub", "/x"], '`/x` is incomplete; expected "TOPIC TYPE YAML@T"'),
         (
             ["simpleton", "--for", "1", "--topic-pub", "/x geometry_msgs/Twst {}"],
             "did you mean `geometry_msgs/msg/Twist`?",

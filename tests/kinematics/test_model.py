@@ -394,3 +394,14 @@ def test_a_chain_of_mimics_is_followed_once(tmp_path: Path) -> None:
         (f"j{count - 1}", (-1.0) ** (count - 1 - i), float((count - 1 - i) % 2)) for i in range(count - 1)
     ]
     assert searched.searches == count - 1
+
+
+@pytest.mark.parametrize("q", [[0.0], "bend", [[0.0]]])
+def test_a_configuration_of_another_robot_is_refused(kinematics: Kinematics, q: Any) -> None:
+    with pytest.raises(KinematicsError, match=r"q has shape .*; robot `.*` needs \d+ numbers"):
+        kinematics.link_poses(q)
+
+
+def test_link_poses_take_a_list(kinematics: Kinematics) -> None:
+    q = kinematics.neutral()
+    assert np.array_equal(kinematics.link_poses(list(q)), kinematics.link_poses(q))

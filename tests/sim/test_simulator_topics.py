@@ -59,6 +59,8 @@ def test_a_topic_to_come_is_waited_for() -> None:
             UsageError,
             f"has type {TWIST}, not {FLOAT}",
         ),
+        (lambda s: s.publish(s.command_topics[0], TWIST, 3), UsageError, f"`3` is not a {TWIST}: write its fields"),
+        (lambda s: s.subscribe("/simpleton/odom", ODOMETRY, 3), UsageError, "the callback of topic `/simpleton/odom`"),
     ],
 )
 def test_a_wrong_topic_or_type_is_reported(

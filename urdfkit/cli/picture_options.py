@@ -86,11 +86,8 @@ def check_picture_options(arguments: argparse.Namespace) -> None:
             continue
         check_places(f"--{option}", [Path(name)])
         _size(arguments.size, option)
-    if arguments.image is not None and (suffix := Path(arguments.image).suffix.lower()) not in IMAGES:
-        raise UsageError(
-            f"--image: `{arguments.image}` has no supported format{did_you_mean(suffix, IMAGES)}; "
-            f"supported: {' '.join(IMAGES)}"
-        )
+    if arguments.image is not None and Path(arguments.image).suffix.lower() not in IMAGES:
+        raise UsageError(f"--image: `{arguments.image}` has no supported format; supported: {' '.join(IMAGES)}")
     if arguments.transparent and Path(arguments.image or "").suffix.lower() in (".jpg", ".jpeg"):
         raise UsageError("--transparent: JPEG pictures cannot be transparent; use .png or .webp")
     if arguments.video is not None:

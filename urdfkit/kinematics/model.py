@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError
@@ -317,9 +317,16 @@ class Kinematics:
             raise KinematicsError(unknown_frame(self.robot, name))
         return self._frames[name]
 
-    def link_poses(self, q: Array) -> Array:
-        """Return x y z [m] and quaternion x y z w of all links in the world, as `link_names` has them; shape (n, 7)."""
-        placements = self.placements(q)
+    def link_poses(self, q: ArrayLike) -> Array:
+        """Return x y z [m] and quaternion x y z w of all links in the world, as `link_names` has them; shape (n, 7).
+
+        Raises:
+            KinematicsError: `q` is no configuration of this robot.
+        """
+        given = np.asarray(q)
+        if given.shape != (self.model.nq,) or given.dtype.kind not in "fiu":
+            raise KinematicsError(f"q has shape {given.shape}; robot `{self.robot.name}` needs {self.model.nq} numbers")
+        placements = self.placements(given.astype(float, copy=False))
         poses = np.empty((len(self._frames), 7))
         for row, frame in enumerate(self._frames.values()):
             poses[row] = pin.SE3ToXYZQUAT(placements[frame])

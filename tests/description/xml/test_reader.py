@@ -200,3 +200,8 @@ def test_the_largest_file_is_read_and_a_larger_one_refused(
     path.write_text(text(most + 1))
     with pytest.raises(XmlError, match=str(most)):
         expand(path)
+
+
+def test_a_mesh_in_place_of_a_robot_is_named(write: Write) -> None:
+    with pytest.raises(XmlError, match="this is a mesh: use the URDF that names it"):
+        expand(write("part.stl", "solid part\nendsolid part\n"))

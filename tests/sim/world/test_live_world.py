@@ -236,7 +236,7 @@ def test_what_is_not_there_is_reported_with_what_is_near() -> None:
         simulator.world.push("chasis", (1.0, 0.0, 0.0))
     with pytest.raises(SimulationError, match="is the simulation's own robot"):
         simulator.world.remove("simpleton")
-    with pytest.raises(SimulationError, match="a pose is x y z"):
+    with pytest.raises(SimulationError, match="it must be x y z, x y z yaw"):
         simulator.world.spawn("ball", (1.0, 2.0))
     simulator.world.spawn("ball", FAR, name="egg")
     with pytest.raises(SimulationError, match="has a `egg`; use `egg_1`"):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.app.pictures.camera_placement import lens_of, placement
 from urdfkit.app.pictures.studio import Studio, camera_of
-from urdfkit.errors import MissingDependencyError, UsageError, did_you_mean
+from urdfkit.errors import MissingDependencyError, UsageError
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array
 
@@ -38,10 +38,7 @@ def check_film(file: Path) -> None:
     suffix = file.suffix.lower()
     if suffix not in (*ANIMATED, *VIDEOS):
         formats = (*ANIMATED, *VIDEOS)
-        raise UsageError(
-            f"--video: `{file.name}` has no supported format{did_you_mean(suffix, formats)}; "
-            f"supported: {' '.join(formats)}"
-        )
+        raise UsageError(f"--video: `{file.name}` has no supported format; supported: {' '.join(formats)}")
     if suffix in VIDEOS and shutil.which("ffmpeg") is None:
         raise MissingDependencyError(
             f"--video: {suffix} needs the program ffmpeg, which is not installed; use .webp or .gif"

@@ -195,7 +195,7 @@ def _text(found: ReachMap, base: BasePlacement | None) -> str:
     count = values["orientations"]
     head = f"{found.tip} in {found.base}: {values['cells']} cells of {found.resolution:g} m reached"
     if not values["cells"]:
-        return f"{found.tip} in {found.base}: no cell of {found.resolution:g} m reached"
+        return f"{found.tip} reaches no cell of {found.resolution:g} m in {found.base}"
     low = found.origin
     high = [corner + found.resolution * count for corner, count in zip(low, found.score.shape, strict=True)]
     best = values["best"]

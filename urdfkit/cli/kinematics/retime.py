@@ -133,7 +133,9 @@ def _scale(text: str) -> tuple[float, float]:
         raise argparse.ArgumentTypeError(f"`{text}` must be two numbers: V,A")
     velocity, acceleration = map(positive, parts)
     if max(velocity, acceleration) > 1.0:
-        raise argparse.ArgumentTypeError(f"`{text}`: a fraction of a limit is at most 1")
+        raise argparse.ArgumentTypeError(
+            f"`{text}` has a fraction above 1; the fractions of the limits are from 0 to 1"
+        )
     return velocity, acceleration
 
 

@@ -17,10 +17,7 @@ def number(text: str) -> float:
     Raises:
         argparse.ArgumentTypeError: the text is not a finite number.
     """
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a number") from None
+    value = _any_number(text)
     if not isfinite(value):
         raise argparse.ArgumentTypeError(f"`{text}` is not a finite number")
     return value
@@ -75,7 +72,8 @@ def _any_number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a number") from None
+        unit = "; write it without a unit, as in the help" if re.fullmatch(r"[-+.\d]+\s*[^\W\d]+", text) else ""
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number{unit}") from None
 
 
 def _counted(count: int) -> str:
@@ -155,7 +153,7 @@ def topic_message(text: str) -> TopicMessage:
         text, t = at[1], duration(at[2])
     parts = text.split(None, 2)
     if len(parts) < 2:
-        raise argparse.ArgumentTypeError(f'`{text}` is not "TOPIC TYPE YAML@T"')
+        raise argparse.ArgumentTypeError(f'`{text}` is incomplete; expected "TOPIC TYPE YAML@T"')
     return TopicMessage(parts[0], parts[1], parts[2] if len(parts) == 3 else "{}", t)
 
 

@@ -106,8 +106,8 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
         unit = "m" if simulator.robot.joint_by_name[name].type == "prismatic" else "rad"
         at, speed = _fixed(state.position(name)), _fixed(state.velocity(name))
         lines.append(f"joint {name}: {at} {unit}, {speed} {unit}/s")
-    if len(joints) > MAX_JOINTS:
-        lines.append(f"and {len(joints) - MAX_JOINTS} more joints (--json shows all)")
+    if (more := len(joints) - MAX_JOINTS) > 0:
+        lines.append(f"and {more} more joint{'s' * (more != 1)} (--json shows all)")
     for name in simulator.kinematics.several_names:
         pose, twist = state.several(name)
         speed, turning = (" ".join(map(_fixed, part)) for part in (twist[:3], twist[3:]))

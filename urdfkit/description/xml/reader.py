@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 MAX_BYTES = 64 * 2**20
 """Maximum size of a description [bytes]."""
 
+_MESHES = (".stl", ".dae", ".obj", ".gltf", ".glb", ".ply")
+
 MAX_MADE_DEPTH = 400
 """Maximum nesting depth of expanded elements; Python's recursion limit is 1,000."""
 
@@ -177,6 +179,8 @@ def _unclosed(source: Source, offset: int) -> tuple[str, Position] | None:
 def _reason(text: str, source: Source, position: Position, tag: str | None, line: int) -> str:
     offset = source.offset(position.line, position.column)
     unclosed = f"`<{tag}>` of line {line} is not closed" if tag else ""
+    if source.file.lower().endswith(_MESHES):
+        return "this is a mesh: use the URDF that names it"
     if source.text.startswith(LFS.decode()):
         return "this is a Git LFS pointer, not the file itself: run `git lfs pull`"
     if text == "no element found":

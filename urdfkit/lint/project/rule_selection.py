@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.errors import UsageError, did_you_mean
 
 
@@ -28,6 +29,13 @@ def selection(
     return wanted
 
 
+def similar_code(code: str, codes: Iterable[str]) -> str:
+    """Return the `Suggestion` of the rule that a code resembles, first of all with a zero for each letter O."""
+    rules = tuple(codes)
+    zeros = code[:1] + code[1:].upper().replace("O", "0")
+    return Suggestion(zeros, code) if zeros in rules else did_you_mean(code, rules)
+
+
 def checked(option: str, prefixes: Iterable[str], codes: Callable[[], tuple[str, ...]]) -> tuple[str, ...]:
     """Return validated codes and prefixes of codes, in capitals.
 
@@ -42,6 +50,6 @@ def checked(option: str, prefixes: Iterable[str], codes: Callable[[], tuple[str,
     wanted = tuple(word.strip().upper() for prefix in prefixes for word in prefix.split(",") if word.strip())
     for prefix in wanted:
         if not any(code.startswith(prefix) for code in codes()):
-            near = did_you_mean(prefix, codes())
-            raise UsageError(f"{option} {prefix}: unknown rule{near}; `urdfkit rule` lists the rules")
+            near = similar_code(prefix, codes()) or "; `urdfkit rule` lists the rules"
+            raise UsageError(f"{option} {prefix}: unknown rule{near}")
     return wanted

@@ -137,10 +137,11 @@ class Question:
     def _choice(self, answer: str) -> str:
         answer = {choice.lower(): choice for choice in self.choices}.get(answer.lower(), answer)
         if answer not in self.choices:
-            near = did_you_mean(answer, self.choices)
+            choices, near = ", ".join(self.choices), did_you_mean(answer, self.choices)
             if (meant := self.called.get(answer.lower())) is not None:
                 near = f"; the nearest is `{meant}`"
-            raise UsageError(f"{self.option} `{answer}` is not available{near}; choose from: {', '.join(self.choices)}")
+            listed = f" The choices are {choices}" if near.endswith("?") else f"; choose from: {choices}"
+            raise UsageError(f"{self.option} `{answer}` is not available{near}{listed}")
         return answer
 
     def _several(self, answers: list[str]) -> str:

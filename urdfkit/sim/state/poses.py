@@ -42,7 +42,7 @@ def pose_of(pose: Pose | Sequence[float]) -> Pose:
             numbers = ()
     if len(numbers) not in (3, 4, 6, 7) or not all(map(isfinite, numbers)):
         raise SimulationError(
-            f"a pose is x y z, x y z yaw, x y z roll pitch yaw or x y z and a quaternion x y z w, not {pose!r}"
+            f"the pose is {pose!r}; it must be x y z, x y z yaw, x y z roll pitch yaw or x y z and a quaternion x y z w"
         )
     x, y, z, *rest = numbers
     check_size((x, y, z), "the position", "m")

@@ -43,6 +43,7 @@ class UnknownSuppression(Rule):
     def check(self, suppressions: Iterable[Suppression], codes: Iterable[str], model: Model) -> Findings:
         """Yield a finding for each malformed suppression and each unknown code."""
         from urdfkit.errors import did_you_mean
+        from urdfkit.lint.project.rule_selection import similar_code
 
         rule_codes = tuple(codes)
         for suppression in suppressions:
@@ -53,7 +54,7 @@ class UnknownSuppression(Rule):
                 )
             for code in suppression.codes:
                 if code not in rule_codes:
-                    message = f"unknown rule `{code}` in suppression" + did_you_mean(code, rule_codes)
+                    message = f"unknown rule `{code}` in suppression" + similar_code(code, rule_codes)
                     yield self.at(model, suppression.position, message)
 
 

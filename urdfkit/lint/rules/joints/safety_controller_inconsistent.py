@@ -82,5 +82,5 @@ class SafetyControllerInconsistent(RobotRule):
                     message = (
                         f"{attribute} {soft:g} {unit} of joint `{joint.name}` is beyond the hard limit {hard:g} {unit}"
                     )
-                    help = "write a soft limit within the hard limits"
+                    help = "write a soft limit inside the hard limits"
                     yield self.at(model, safety.element, message, attribute=attribute, joint=joint.name, help=help)

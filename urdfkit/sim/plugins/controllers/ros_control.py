@@ -55,7 +55,8 @@ class GazeboRosControl(ControlLoopPlugin):
                 hardware.outputs.setdefault(output.claim, output)
         hardware.joints = tuple(dict.fromkeys(name for name, _ in hardware.outputs))
         if not hardware.outputs:
-            setup.note(f"{self.plugin.element.origin.position}: no <transmission>: there is nothing to control")
+            place = self.plugin.element.origin.position
+            setup.note(f"{place}: the robot has no <transmission>, so its controllers have no joints")
         loop = self.loop = ControlLoop(namespace, configured, hardware)
         if found is None:
             defect = f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"

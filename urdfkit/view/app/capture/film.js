@@ -74,7 +74,7 @@ export async function turntable(viewport, seconds, progress = () => true) {
       stopped = progress(turned) === false;
       return turned < 1 && !stopped;
     });
-    if (stopped) throw new Error("the video of the turn was stopped");
+    if (stopped) throw new Error("the recording was stopped");
     return blob;
   } finally {
     camera.position.copy(target).add(arm);

@@ -15,7 +15,7 @@ export class Displays {
     this.panel = page.panels.add({ id: "displays", title: "Displays", icon: MONITOR, order: 22 });
     page.panels.available("displays", false);
     this.list = h("ul.bare-list.displays", { "aria-label": "Displays" });
-    this.none = h("p.quiet", {}, "No topic here has a display. Maps, paths, poses, markers, scans, point clouds, ranges and wrenches have one.");
+    this.none = h("p.quiet", {}, "None of these topics can be displayed. Displays exist for maps, paths, poses, markers, scans, point clouds, ranges and wrenches.");
     this.panel.body.append(this.none, this.list, transforms(page));
     page.on("display_types", ({ types }) => {
       this.types = new Map(Object.entries(types));
