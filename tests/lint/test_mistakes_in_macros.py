@@ -198,3 +198,19 @@ def test_a_misplaced_part_is_reported_at_the_argument_that_misplaces_it(change, 
     (tmp_path / "rover.urdf.xacro").write_text(WHEELS.replace(*change, 1) if change else WHEELS)
     found = lint("rover.urdf.xacro", select=CODES)
     assert [(each.code, each.line) for each in found] == ([("S909", line)] if line else [])
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        (('"front_right"', '"rear_left"'), 25),
+        (('"rear_right"', '"rear_left"'), 33),
+        (('"rear_left"', '"rear_right"'), 29),
+    ],
+    ids=["earlier call", "later call", "other side"],
+)
+def test_a_repeated_name_is_reported_at_the_call_on_the_side_that_contradicts_it(change, line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rover.urdf.xacro").write_text(WHEELS.replace(*change, 1))
+    found = lint("rover.urdf.xacro", select=("T206", "T207"))
+    assert [(each.code, each.line) for each in found] == [("T206", line)]
