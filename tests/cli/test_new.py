@@ -234,7 +234,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "scout", "--ros", "noetc"], "did you mean `noetic`?"),
         (
             ["robot", "scout", "--drive", "skdi"],
-            "--drive `skdi` is not available; did you mean `skid`\? The choices are diff, skid, ack",
+            r"--drive `skdi` is not available; did you mean `skid`\? The choices are diff, skid, ack",
         ),
         (
             ["robot", "scout", "--drive", "omni", "--wheel-torque", "2"],

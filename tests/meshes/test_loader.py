@@ -213,7 +213,7 @@ def _binary_stl(count: int, triangles: bytes) -> bytes:
             r"mesh a\.dae is rejected: it declares a document type",
         ),
         ("a.stl", b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n", r"LFS pointer.*git lfs pull"),
-        ("a.step", b"ISO-10303-21;", r"unsupported format.*supported: \.stl"),
+        ("a.step", b"ISO-10303-21;", r"unsupported format.*upported: \.stl"),
         ("a.slt", b"", r"did you mean `\.stl`\?"),
     ],
 )

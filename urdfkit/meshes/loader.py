@@ -97,8 +97,8 @@ class MeshLoader:
             MissingDependencyError: trimesh is not installed.
         """
         if path.suffix.lower() not in FORMATS:
-            near = did_you_mean(path.suffix, FORMATS) or f"; supported: {' '.join(FORMATS)}"
-            message = f"has an unsupported format{near}"
+            near, formats = did_you_mean(path.suffix, FORMATS), " ".join(FORMATS)
+            message = f"has an unsupported format{near}{f' Supported: {formats}' if near else f'; supported: {formats}'}"
             raise MeshError(path, message, kind="format")
         content = _read(path)
         side_files = b"".join(_side_files(path, content))

@@ -77,7 +77,6 @@ class TopicUnconnected(RobotRule):
             yield self.at_span(span_of(source, value), message)
         # A topic of the code can be without a counterpart because its remapping has another name.
         for end, message in unpaired(model) if not of_code else ():
-            names = (end.topic,)
-            yield self.at_span(end.source.span(end.start, end.end), message, kind="own", names=names)
+            yield self.at_span(end.source.span(end.start, end.end), message, kind="own", names=(end.topic,))
         for source, value, near, message in unfed_mux_topics(model):
             yield self.at_span(span_of(source, value), message, names=(near,))
