@@ -97,8 +97,8 @@ class MeshLoader:
             MissingDependencyError: trimesh is not installed.
         """
         if path.suffix.lower() not in FORMATS:
-            near, formats = did_you_mean(path.suffix, FORMATS), " ".join(FORMATS)
-            message = f"has an unsupported format{near}{f' Supported: {formats}' if near else f'; supported: {formats}'}"
+            near = did_you_mean(path.suffix, FORMATS)
+            message = f"has an unsupported format{near}{' Supported' if near else '; supported'}: {' '.join(FORMATS)}"
             raise MeshError(path, message, kind="format")
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
