@@ -166,7 +166,12 @@ class Bus:
             type: of its messages.
             callback: receives each message, in the publisher's thread.
             defer: receives, instead of a message that takes long to build, the function that builds it, in any thread.
+
+        Raises:
+            UsageError: the topic has another type, or `callback` cannot be called.
         """
+        if not callable(callback):
+            raise UsageError(f"the callback of topic `{name}` is {callback!r}; pass a function of one message")
         is_new = absolute(name) not in self._topics
         topic = self.advertise(name, type)
         topic.is_input = topic.is_input or is_new

@@ -323,10 +323,12 @@ class Kinematics:
         Raises:
             KinematicsError: `q` is no configuration of this robot.
         """
-        given = np.asarray(q)
-        if given.shape != (self.model.nq,) or given.dtype.kind not in "fiu":
-            raise KinematicsError(f"q has shape {given.shape}; robot `{self.robot.name}` needs {self.model.nq} numbers")
-        placements = self.placements(given.astype(float, copy=False))
+        values = np.asarray(q)
+        if values.shape != (self.model.nq,) or values.dtype.kind not in "fiu":
+            raise KinematicsError(
+                f"q has shape {values.shape}; robot `{self.robot.name}` needs {self.model.nq} numbers"
+            )
+        placements = self.placements(values.astype(float, copy=False))
         poses = np.empty((len(self._frames), 7))
         for row, frame in enumerate(self._frames.values()):
             poses[row] = pin.SE3ToXYZQUAT(placements[frame])

@@ -17,6 +17,7 @@ def from_fields(type: str, fields: Any) -> Any:
         type: its type.
         fields: field → value, nested like the message; None for no fields. A message may also be the list of its
             fields, a time or duration a number of seconds; ROS 1's ``secs``, ``nsecs`` and ``seq`` are accepted too.
+            A message is returned as it is.
 
     Raises:
         UsageError: no such type or field, or a value of the wrong kind.
@@ -28,6 +29,8 @@ def from_fields(type: str, fields: Any) -> Any:
     """
     from urdfkit.errors import did_you_mean
 
+    if hasattr(fields, "__dict__") or hasattr(fields, "__slots__"):  # a message, also one of rclpy
+        return fields
     full = full_type_name(type)
     kind = message_type(full)
     layout = dict(type_layouts()[full][1])

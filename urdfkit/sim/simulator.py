@@ -13,7 +13,7 @@ from urdfkit.description import Robot
 from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.errors import SimulationError, UnknownNameError, UsageError
+from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import Array
 from urdfkit.messages import TWIST, TWIST_STAMPED, from_fields, header, message_type, require_message_types, twist
 from urdfkit.scene import Scene
@@ -214,8 +214,7 @@ class Simulator(Copyable):
         Raises:
             SimulationError: the simulation diverged, or `seconds` is negative or not finite.
         """
-        seconds = number(seconds, "the time to run for", "s")
-        if not 0 <= seconds < 1e9:
+        if not 0 <= (seconds := number(seconds, "the time to run for", "s")) < 1e9:
             raise SimulationError(f"the duration is {seconds:g} s; it must be zero or more, and less than 1e9 s")
         if not self.paused:
             self.step(round(seconds / self.dt))
@@ -360,8 +359,6 @@ class Simulator(Copyable):
         if not wait and (name := absolute(topic)) not in names:
             hint = similar_topic(name, names) or "; wait=True accepts topics that are published later"
             raise UnknownNameError(f"no topic `{name}` in the simulation{hint}")
-        if not callable(callback):
-            raise UsageError(f"the callback of topic `{topic}` is {callback!r}; pass a function of one message")
         return self.bus.subscribe(topic, type, callback)
 
     def publish(self, topic: str, type: str, message: Any) -> None:
@@ -387,8 +384,7 @@ class Simulator(Copyable):
         subscribed = [each.name for each in self.bus.topics if each.subscribers]
         if (name := absolute(topic)) not in subscribed:
             raise UnknownNameError(f"topic `{name}` has no subscribers{similar_topic(name, subscribed)}")
-        is_record = hasattr(message, "__dict__") or hasattr(message, "__slots__")
-        self.bus.publish(topic, type, message if is_record else from_fields(type, message))
+        self.bus.publish(topic, type, from_fields(type, message))
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
