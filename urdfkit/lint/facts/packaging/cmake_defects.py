@@ -256,7 +256,7 @@ def misplaced(
         if command.name != "install" or words[:1] != ["DIRECTORY"] or "DESTINATION" not in words[:-1]:
             continue
         written, start = command.words[words.index("DESTINATION") + 1]
-        place = _evaluated(written, files.name)
+        place = evaluated(written, files.name)
         written_folders = words[1 : next(i for i, word in enumerate(words) if word in OPTIONS)]
         folders = [word.strip("/") for word in written_folders]
         if place is None or place == share or place.startswith((f"{share}/", "/")):
@@ -278,7 +278,7 @@ def misplaced(
     yield from (defect for folder, defect in wrong[:1] if folder not in right)
 
 
-def _evaluated(written: str, package: str) -> str | None:
+def evaluated(written: str, package: str) -> str | None:
     """Return a destination without variables; None if it has others than those of the project and of catkin."""
     values = {"PROJECT_NAME": package, "CMAKE_PROJECT_NAME": package, "CMAKE_INSTALL_PREFIX": "/prefix"}
     values |= {name: value.format(package) for name, value in _CATKIN.items()}

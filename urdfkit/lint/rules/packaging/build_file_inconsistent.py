@@ -41,7 +41,10 @@ class BuildFileInconsistent(RobotRule):
     ``catkin_package()``, and the spelling of commands, variables and packages. Reports missing files and folders that
     ``install`` or a test names. Also reports folders and scripts that launch files use but that are not installed, or
     are installed in the wrong place. The source files of targets must exist, and the commands of a target must name one
-    that is defined.
+    that is defined. A target that includes headers of a package of messages must depend on it.
+
+    Files of messages, services and actions must be generated, with the packages of their types in ``DEPENDENCIES``, and
+    package.xml must have the group and the packages that generated messages need.
 
     Checks the name, the version, ``packages``, ``data_files`` and the modules of console scripts in setup.py, and the
     script folders in setup.cfg.
@@ -70,6 +73,7 @@ class BuildFileInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
         from urdfkit.lint.facts.packaging.setup_defects import setup_defects
+        from urdfkit.lint.facts.packaging.target_defects import INTERFACES, message_defects, target_defects
 
         used = _used_paths(model)
         for files in build_files(model):
@@ -85,6 +89,9 @@ class BuildFileInconsistent(RobotRule):
                 every = commands(files.cmake)
                 elsewhere = misplaced(files, files.cmake, every, {*folders}, named)
                 defects = [*cmake_defects(files.cmake, every), *elsewhere]
+                model.expanded.packages.watch(files.folder, *INTERFACES)
+                defects += message_defects(files, files.cmake, every)
+                defects += target_defects(files, files.cmake, every, _started(model, files.name))
                 yield from self._cmake(files, files.cmake, every)
             elif files.setup is not None:
                 yield from self._setup(files, files.setup)
@@ -207,8 +214,6 @@ class BuildFileInconsistent(RobotRule):
 
     def _programs(self, model: Model, files: BuildFiles) -> Findings:
         """Yield a finding for each script that launch files start and that CMakeLists.txt does not install."""
-        from urdfkit.lint.facts.control.launched_nodes import launches, started
-
         source = files.cmake
         if source is None or re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|\binstall_\w+\(", source.text):
             return
@@ -216,10 +221,9 @@ class BuildFileInconsistent(RobotRule):
         text = " ".join(word for command in installs for word, _ in command.words)
         if not installs or "$" in re.sub(r"\$\{(PROJECT_NAME|CATKIN_\w+)\}", "", text):
             return
-        programs = {
-            node.program for launch in launches(model) for node in started(launch) if node.package == files.name
-        }
-        for program in sorted(name for name in programs if name.endswith(".py") and name not in text):
+        for program in sorted(
+            name for name in _started(model, files.name) if name.endswith(".py") and name not in text
+        ):
             folder = next((name for name in ("scripts", "nodes", "src", "bin") if files.has(f"{name}/{program}")), None)
             if folder is not None and not re.search(rf"(?<![\w.-]){folder}(?![\w.-])", text):
                 message = f"`{folder}/{program}` is not installed, but launch files start it"
@@ -230,6 +234,13 @@ class BuildFileInconsistent(RobotRule):
         self, source: Source, start: int, text: str, message: str, severity: Severity = "error", **details: Any
     ) -> Finding:
         return self.at_span(source.span(start, min(start + len(text), len(source.text))), message, severity, **details)
+
+
+def _started(model: Model, package: str) -> set[str]:
+    """Return the executables of a package that launch files start."""
+    from urdfkit.lint.facts.control.launched_nodes import launches, started
+
+    return {node.program for launch in launches(model) for node in started(launch) if node.package == package}
 
 
 def _used_paths(model: Model) -> dict[str, dict[str, str]]:

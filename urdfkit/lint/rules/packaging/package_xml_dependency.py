@@ -38,6 +38,12 @@ _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
 
 
+_NAVIGATION_PLUGIN = (
+    r"(?m)^[ \t]*(?:plugin:[ \t]*[\"']?(?=nav2_)|base_(?:local|global)_planner:[ \t]*[\"']?)(\w+)(?:::|/)\w+"
+)
+_OF_MOVE_BASE = ("base_local_planner", "clear_costmap_recovery", "costmap_2d", "navfn", "rotate_recovery")
+"""Packages on which move_base depends."""
+
 _COVERED = {"tf2_ros": "tf2_ros_py", "tf2_py": "tf2_ros"}
 """Package that code imports → another package that installs it."""
 
@@ -222,10 +228,12 @@ class PackageXmlDependency(RobotRule):
         needed = _needed(model)
         for source in yamls(model):
             uses: dict[str, re.Match[str]] = {}
-            for match in re.finditer(r"(?m)^[ \t]*plugin:[ \t]*[\"']?(nav2_\w+)(?:::|/)\w+", source.text):
-                uses.setdefault(match[1], match)
+            for match in re.finditer(_NAVIGATION_PLUGIN, source.text):
+                if match[1] not in _OF_MOVE_BASE or "move_base" not in needed:
+                    uses.setdefault(match[1], match)
             missing = [name for name in uses if name not in needed and not is_in_metapackage(name, needed)]
-            for name in missing if len(missing) < len(uses) / 2 else ():
+            is_listed = len(missing) < len(uses) / 2 or "move_base" in needed
+            for name in missing if is_listed else ():
                 if name in names():
                     needed.add(name)
                     span = source.span(*uses[name].span(1))

@@ -1,0 +1,190 @@
+"""Targets and messages of a CMakeLists.txt: messages that are not generated, packages and places of targets.
+
+Sources: genmsg (cmake/pkg-genmsg.cmake.em), rosidl_cmake (rosidl_generate_interfaces.cmake), ros2cli (ros2pkg,
+get_executable_paths), roslib (rospack).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
+from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect, evaluated
+from urdfkit.lint.project.code_files import code_texts
+
+INTERFACES = (".msg", ".srv", ".action")
+"""Endings of the names of files with messages, services and actions."""
+
+_OF_CATKIN = {"msg": "add_message_files", "srv": "add_service_files", "action": "add_action_files"}
+"""Folder → the command of catkin that generates its files."""
+
+_GENERATOR = "rosidl_generate_interfaces"
+_INSTALLED = {
+    "std_msgs": "builtin_interfaces",
+    "geometry_msgs": "std_msgs",
+    "shape_msgs": "geometry_msgs",
+    "sensor_msgs": "geometry_msgs",
+    "nav_msgs": "geometry_msgs",
+    "stereo_msgs": "sensor_msgs",
+    "trajectory_msgs": "geometry_msgs",
+    "diagnostic_msgs": "geometry_msgs",
+    "visualization_msgs": "sensor_msgs",
+    "actionlib_msgs": "std_msgs",
+    "std_srvs": "",
+    "builtin_interfaces": "",
+    "unique_identifier_msgs": "",
+    "action_msgs": "builtin_interfaces unique_identifier_msgs",
+    "rclcpp": "builtin_interfaces",
+    "rclcpp_lifecycle": "rclcpp lifecycle_msgs",
+    "rclcpp_components": "rclcpp composition_interfaces",
+    "rclcpp_action": "rclcpp action_msgs",
+    "lifecycle_msgs": "",
+    "composition_interfaces": "",
+}
+"""Package → packages whose headers and messages a dependency on it provides too."""
+
+
+def _covered(packages: Collection[str]) -> set[str] | None:
+    """Return packages with the packages that they provide; None if one of them is unknown."""
+    found, left = set[str](), [*packages]
+    while left:
+        name = left.pop()
+        if name not in _INSTALLED:
+            return None
+        if name not in found:
+            found.add(name)
+            left += _INSTALLED[name].split()
+    return found
+
+
+def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
+    """Yield messages that CMakeLists.txt does not generate, and missing packages of their types."""
+    generators = [each for each in every if each.name in (_GENERATOR, "generate_messages")]
+    if len(generators) != 1 or re.search(r"\binclude\s*\(", source.text):
+        return
+    generator = generators[0]
+    texts = [(path, text) for path, text in code_texts(files.folder, INTERFACES) if path.parent.parent == files.folder]
+    is_catkin = generator.name == "generate_messages"
+    yield from _ungenerated(source, every, generator, [path for path, _ in texts])
+    words = [word for word, _ in generator.words]
+    at = words.index("DEPENDENCIES") if "DEPENDENCIES" in words else len(words)
+    end = next((i for i, word in enumerate(words) if i > at and word.isupper()), len(words))
+    covered = None if any("$" in word for word in words[at:end]) else _covered(words[at + 1 : end])
+    start, word = (generator.words[at][1], words[at]) if at < len(words) else (generator.start, generator.name)
+    seen = {files.name, *(covered or ())}
+    for path, text in texts if covered is not None else ():
+        for package in _packages(text, is_catkin):
+            if package not in seen and path.name in source.text:
+                seen.add(package)
+                message = f"`{path.name}` uses `{package}`, which is missing in DEPENDENCIES"
+                yield BuildDefect(source, start, word, message)
+    if not is_catkin:
+        yield from _manifest_of_interfaces(files)
+
+
+def _packages(text: str, is_catkin: bool) -> list[str]:
+    """Return the packages of the types in a file with a message, service or action, in their order."""
+    found = re.findall(r"(?m)^[ \t]*(\w+)/\w+(?:\[[<=\d]*\])?[ \t]+\w+", text)
+    found += ["std_msgs"] if is_catkin and re.search(r"(?m)^[ \t]*Header[ \t]+\w+", text) else []
+    return list(dict.fromkeys(found))
+
+
+def _ungenerated(
+    source: Source, every: list[CMakeCommand], generator: CMakeCommand, paths: list[Path]
+) -> Iterator[BuildDefect]:
+    """Yield the files of the folders of messages that the commands do not name."""
+    for path in paths:
+        folder = path.parent.name
+        if folder not in _OF_CATKIN or path.suffix != f".{folder}" or path.name in source.text:
+            continue
+        command, of = generator, ""
+        if generator.name != _GENERATOR:
+            command = next((each for each in every if each.name == _OF_CATKIN[folder]), generator)
+            if command is not generator and "FILES" not in [word for word, _ in command.words]:
+                continue  # the command generates all files of the folder
+            of = f"; {_OF_CATKIN[folder]}() does not name it"
+        if any("$" in word for word, _ in command.words[1 if command is generator else 0 :]):
+            continue
+        message = f"`{folder}/{path.name}` is not generated" + (of or f"; {generator.name}() does not name it")
+        yield BuildDefect(source, command.start, command.name, message, "warning")
+
+
+def _manifest_of_interfaces(files: BuildFiles) -> Iterator[BuildDefect]:
+    """Yield the missing group and dependency in the package.xml of a package with messages."""
+    groups = files.tags("member_of_group")
+    needed = files.tags("depend", "exec_depend", "run_depend", "build_export_depend")
+    last = max((tag for _, tag in (*needed, *files.tags("buildtool_depend"))), key=lambda tag: tag.start, default=None)
+    if last is None:
+        return
+    place = (files.manifest, last.start, files.manifest.text[last.start : last.end])
+    if not any(text == "rosidl_interface_packages" for text, _ in groups):
+        message = f"{_GENERATOR}() needs <member_of_group>rosidl_interface_packages</member_of_group> in package.xml"
+        yield BuildDefect(*place, message)
+    elif not any(text == "rosidl_default_runtime" for text, _ in needed):
+        message = "missing dependency on `rosidl_default_runtime`, which generated messages need"
+        yield BuildDefect(*place, message, "warning")
+
+
+def target_defects(
+    files: BuildFiles, source: Source, every: list[CMakeCommand], programs: Collection[str]
+) -> Iterator[BuildDefect]:
+    """Yield targets without a package whose headers they include, and executables in another place than ROS searches.
+
+    Args:
+        files: the build files of the package.
+        source: its CMakeLists.txt.
+        every: the commands of it.
+        programs: the executables of the package that launch files start.
+    """
+    added = [each for each in every if each.name in ("add_executable", "add_library") and each.words]
+    executables = {each.words[0][0] for each in added if each.name == "add_executable"}
+    for command in every:
+        words = [word for word, _ in command.words]
+        if command.name != "install" or words[:1] != ["TARGETS"] or "DESTINATION" not in words[:-1]:
+            continue
+        runtime = words.index("RUNTIME") + 1 if "RUNTIME" in words[:-2] else words.index("DESTINATION")
+        if words[runtime] != "DESTINATION":
+            continue
+        written, start = command.words[runtime + 1]
+        place = evaluated(written, files.name)
+        target = next((word for word in words[1:runtime] if word in executables and word in programs), None)
+        if target is not None and place is not None and place not in (f"lib/{files.name}", f"share/{files.name}"):
+            message = f"executable `{target}` is installed to `{place}`, but launch files need it in `lib/{files.name}`"
+            yield BuildDefect(source, start, written, message)
+    found = {each.words[0][0] for each in every if each.name == "find_package" and each.words}
+    is_global = any(each.name in ("include_directories", "link_libraries", "include") for each in every)
+    if "catkin" not in found and not is_global:
+        yield from _includes(files, source, every, added, found)
+
+
+_USES = ("ament_target_dependencies", "target_link_libraries", "target_include_directories")
+
+
+def _includes(
+    files: BuildFiles, source: Source, every: list[CMakeCommand], added: list[CMakeCommand], found: set[str]
+) -> Iterator[BuildDefect]:
+    """Yield the targets that include headers of a package which CMake finds and which no command adds to them."""
+    own = {each.words[0][0] for each in added}
+    for target in added:
+        name = target.words[0][0]
+        uses = [each for each in every if each.name in _USES and each.words and each.words[0][0] == name]
+        words = [word for each in uses for word, _ in each.words[1:] if word not in ("PUBLIC", "PRIVATE", "INTERFACE")]
+        if not uses or any("$" in word or word in own or "/" in word for word in words):
+            continue
+        covered = _covered({package for word in words if (package := word.partition("::")[0]) in _INSTALLED})
+        others = {word.partition("::")[0] for word in words} - {*_INSTALLED}
+        for path in (files.folder / word for word, _ in target.words[1:] if re.search(r"\.(?:cc|cpp|cxx)$", word)):
+            if covered is None or not path.is_file():
+                continue
+            for package in re.findall(r"(?m)^[ \t]*#include[ \t]*[<\"](\w+)/", path.read_text("utf-8", "replace")):
+                is_interface = re.search(r"_(?:msgs|srvs|interfaces|actions?)$", package) is not None
+                is_open = is_interface and package in _INSTALLED and others  # another package may provide it
+                if package not in found - {*covered, *others, files.name} or not is_interface or is_open:
+                    continue
+                covered.add(package)
+                message = f"target `{name}` includes headers of `{package}`, but does not depend on it"
+                yield BuildDefect(source, uses[0].start, uses[0].name, message)
