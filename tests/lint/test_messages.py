@@ -499,8 +499,8 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         },
         [
             (
-                "config/c.yaml:4: warning: controller `arm` has no `type`, but launch/a.launch.xml spawns it"
-                " | add it to the parameters of `controller_manager`"
+                "config/c.yaml:3: warning: controller `arm` has no `type`, but launch/a.launch.xml spawns it"
+                " | add it here, to the parameters of `controller_manager`"
             )
         ],
     ),

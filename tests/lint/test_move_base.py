@@ -48,6 +48,13 @@ MISTAKES = [
     ("costmap.yaml", "frequency: 5.0", "frequency: 0.5", 4, "the robot drives 1 m between two updates"),
     ("costmap.yaml", "resolution: 0.05", "resolution: 0.3", 8, "more than the inscribed radius of the robot, 0.2 m"),
     ("costmap.yaml", "width: 3.0", "width: 0.3", 7, "but the robot extends 0.361 m"),
+    (
+        "teb.yaml",
+        "PlannerROS:",
+        "Planner:",
+        1,
+        "reads the section `TebLocalPlanner`; did you mean `TebLocalPlannerROS`",
+    ),
     ("teb.yaml", "polygon", "circular", 4, "parameters of a footprint of the type `polygon`"),
     ("teb.yaml", "dist: 0.1", "dist: 0.5", 6, "so `inflation_dist`, 0.4 m, has no effect"),
 ]

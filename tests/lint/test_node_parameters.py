@@ -168,6 +168,7 @@ BAD = [
     ("monitor", "type: scan", "type: laser", "K971", 13, "unknown type `laser` of `front`"),
     ("behaviors", "nav2_behaviors::Spin", "nav2_recoveries::Spin", "K971", 21, "write `nav2_behaviors::Spin`"),
     ("behaviors", "behavior_server:", "recoveries_server:", "K971", 16, "its name since Humble is `behavior_server`"),
+    ("behaviors", "[spin, wait]", "[spin, backup, wait]", "K971", 19, "lists `backup`, which has no section with its"),
     ("behaviors", "[spin, wait]", "[spin]", "K971", 19, "`behavior_plugins` does not list `wait`"),
     ("behaviors", ", inflation_layer]", "]", "K971", 28, "`plugins` does not list `inflation_layer`"),
     ("behaviors", "plugin: nav2_costmap_2d::Static", "type: nav2_costmap_2d::Static", "K971", 36, "mean `plugin`?"),

@@ -237,6 +237,13 @@ MISTAKES = [
     ("launch/cart.launch.py", "default_value='true'", "'true'", "L106", "write `default_value=`"),
     ("launch/cart.launch.py", "'cart'), 'worlds'", "'cart'), '/worlds'", "L106", "starts with a slash"),
     ("launch/cart.launch.py", "'-r -s '", "'-s '", "L126", "add `-r`"),
+    (
+        "launch/cart.launch.py",
+        "executable='map_server', name='map_server'",
+        "executable='map_server', name='halls'",
+        "L117",
+        "node `halls` has no section in navigation.yaml, which has `map_server`",
+    ),
     ("launch/cart.launch.py", "'autostart': True", "'autostart': False", "L126", "`autostart` is false"),
     ("launch/cart.launch.py", "'count': 2", "'count': 2.5", "K974", "declares an integer"),
     ("launch/cart.launch.py", "[0.3, 0.4]", "[3, 4]", "K974", "list of numbers with decimal points"),
@@ -349,6 +356,7 @@ wheel:
 """
 SPAWNERS = '<launch><node pkg="controller_manager" exec="spawner" args="{}"/></launch>\n'
 UNSPAWNED = "no launch file spawns controller `wheel`, unlike the other controllers of its file"
+MISSPELT = "unknown controller `wheels`; did you mean `wheel`?"
 TOO_FAST = "`update_rate` is 2000 Hz, but the physics of Gazebo has 1000 steps per second"
 OCTOMAP = "no other file names the frame `mapp` of the octomap"
 
@@ -358,6 +366,7 @@ OCTOMAP = "no other file names the frame `mapp` of the octomap"
     [
         (100, "lift wheel", "base_link", ""),
         (100, "lift", "base_link", UNSPAWNED),
+        (100, "lift wheels", "base_link", MISSPELT),
         (2000, "lift wheel", "base_link", TOO_FAST),
         (100, "lift wheel", "mapp", OCTOMAP),
     ],
@@ -370,7 +379,7 @@ def test_controllers_and_the_octomap_of_a_robot(tmp_path, rate, names, frame, me
     (tmp_path / "config/controllers.yaml").write_text(TWO.format(rate=rate))
     (tmp_path / "config/octomap.yaml").write_text(f"octomap_frame: {frame}\noctomap_resolution: 0.05\n")
     (tmp_path / "launch/cart.launch.xml").write_text(SPAWNERS.format(names))
-    found = {one.message for one in lint(tmp_path)} & {UNSPAWNED, TOO_FAST, OCTOMAP}
+    found = {one.message for one in lint(tmp_path)} & {UNSPAWNED, MISSPELT, TOO_FAST, OCTOMAP}
     assert found == ({message} if message else set())
 
 

@@ -467,7 +467,7 @@ def test_a_value_that_is_no_boolean_stops_moveit_2(ros2, tool, severity):
 
 
 @pytest.mark.parametrize(("options", "is_reported"), [("", True), (' "--param-file", "other.yaml",', False)])
-def test_a_spawned_controller_without_a_type_is_reported_at_its_parameters(ros2, options, is_reported):
+def test_a_spawned_controller_without_a_type_is_reported_where_the_type_belongs(ros2, options, is_reported):
     node = f'Node(package="controller_manager", executable="spawner", arguments=[{options} "arm_controller"])'
     launch = f"def generate_launch_description():\n    return LaunchDescription([{node}])\n"
     write(
@@ -479,7 +479,7 @@ def test_a_spawned_controller_without_a_type_is_reported_at_its_parameters(ros2,
     )
     entry = "    arm_controller:\n      type: joint_trajectory_controller/JointTrajectoryController\n"
     lines = change(ros2, "config/arm.yaml", entry, "")
-    expected = ["arm.yaml:9: controller `arm_controller` has no `type`, but launch/arm.launch.py spawns it"]
+    expected = ["arm.yaml:7: controller `arm_controller` has no `type`, but launch/arm.launch.py spawns it"]
     assert lines == (expected if is_reported else [])
 
 
@@ -500,3 +500,28 @@ def test_a_yaml_file_that_expands_without_end_is_one_finding(ros2, text, line, w
     write(ros2, {"config/other.yaml": text})
     (finding,) = lint(ros2)
     assert (finding.code, finding.line, finding.message) == ("K966", line, f"invalid YAML: {why}")
+
+
+def test_a_controller_without_a_type_whose_name_a_function_spawns_is_reported(ros2):
+    launch = """import os
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    params = os.path.join(get_package_share_directory('arm_description'), 'config', 'arm.yaml')
+
+    def spawn(*names):
+        arguments = list(names) + ['--param-file', params]
+        return Node(package='controller_manager', executable='spawner', arguments=arguments)
+
+    return LaunchDescription([spawn('OTHER', 'arm_controller')])
+"""
+    entry = "    arm_controller:\n      type: joint_trajectory_controller/JointTrajectoryController\n"
+    lines = change(ros2, "config/arm.yaml", entry, "")
+    assert lines == []
+    write(ros2, {"launch/arm.launch.py": launch.replace("OTHER", "grip_controller")})
+    expected = ["arm.yaml:7: controller `arm_controller` has no `type`, but launch/arm.launch.py spawns it"]
+    assert found(ros2) == expected

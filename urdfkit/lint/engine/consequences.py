@@ -57,6 +57,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K967", ""), "line", ("K956", "controller type")),
     (("K960", ""), "line", ("M112", "unspawned")),
     (("K960", ""), "meant", ("M112", "unspawned")),
+    (("K960", "unknown"), "meant", ("K960", "left out")),
     (("K962", ""), "meant", ("K971", "incomplete")),
     (("K980", "remapping"), "meant", ("K980", "unread")),
     (("K967", ""), "line", ("K956", "")),

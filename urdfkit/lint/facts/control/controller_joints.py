@@ -10,7 +10,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, documents_in, 
 from urdfkit.record import record
 
 _TYPE = r"(?<!\w)\w*(?:_controllers?|_broadcaster)/\w+"
-_JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?"
+_JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?|(?:traction|steering)_joints?_names?|(?:front|rear)_wheels_names"
 
 _GAINS = "pid_gains"
 """Section of gazebo_ros_control with the gains of joints."""

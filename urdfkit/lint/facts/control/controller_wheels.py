@@ -1,5 +1,6 @@
 """Wheels of the ``diff_drive_controller``, of steering and of mecanum controllers in YAML."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -25,10 +26,15 @@ def diff_drives(model: Model) -> Iterator[tuple[Source, ControllerSettings]]:
 def steering_wheels(model: Model) -> Iterator[tuple[Source, Node, str, list[Wheel]]]:
     """Yield the group and name of the radius of the wheels that a steering controller drives, and these wheels.
 
-    Source: steering_controllers_library (steering_controllers_library.yaml) of Humble to Rolling.
+    Sources: steering_controllers_library (steering_controllers_library.yaml) and tricycle_controller (README) of Humble
+    to Rolling.
     """
     for source in yamls_of_robot(model):
-        for controller in settings(source) if "_steering_controller" in source.text else ():
+        for controller in settings(source) if re.search(r"_steering_controller|tricycle_con", source.text) else ():
+            if controller.kind == "tricycle_controller/TricycleController":
+                named = controller.group.find("traction_joint_name")
+                if wheels := _all_wheels(model, [named.text] if named is not None else []):
+                    yield source, controller.group, "wheel_radius", wheels
             if "_steering_controller/" not in controller.kind:
                 continue
             front = controller.group.find("front_steering")

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.controller_settings import settings
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.launched_nodes import Started, launches, started
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, Wanted, declared, wanted
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
@@ -16,7 +17,7 @@ from urdfkit.lint.model.model import Model
 
 SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
 _INACTIVE = ("--inactive", "--stopped", "--load-only")
-_WITH_TYPE = ("-t", "--controller-type", "-p", "--param-file")
+_WITH_TYPE = ("-t", "--controller-type")
 
 
 def spawned(node: Started) -> Iterator[Named]:
@@ -46,6 +47,20 @@ def _spawners(model: Model, without: tuple[str, ...]) -> Iterator[tuple[Source, 
         yield source, names
 
 
+def _quoted(source: Source, files: list[Source]) -> set[str]:
+    """Return the words in quotes of a Python launch file that computes the arguments of a spawner.
+
+    Among them are the names of the controllers if the file quotes the name of the only parameter file that has typed
+    controllers, and one of these controllers.
+    """
+    if not source.file.endswith(".py") or not any(node.program in SPAWNERS for node in started(source)):
+        return set()
+    words = set(re.findall(r"[\"']([\w.-]+)[\"']", uncommented(source)))
+    typed = [file for file in files if any(one.name in words for one in declared(file))]
+    is_loaded = len(typed) == 1 and typed[0].file.rpartition("/")[2] in words
+    return words if is_loaded and words.isdisjoint(_WITH_TYPE) else set()
+
+
 def untyped(model: Model) -> Iterator[tuple[Source, Node, Source]]:
     """Yield the spawned controllers whose parameters are in a file that gives other controllers a type, but not them.
 
@@ -54,17 +69,24 @@ def untyped(model: Model) -> Iterator[tuple[Source, Node, Source]]:
     """
     files = [source for source in yamls(model) if PARAMETERS in source.text]
     typed = {one.name for source in files for one in declared(source)}
+    # The spawner reads the type from the section of the controller in its parameter file, too.
+    sections = [entry for source in files for root in documents(source) for entry in root.entries] if typed else []
+    groups = [(key.text.strip("/"), section.find(PARAMETERS)) for key, section in sections]
+    typed |= {name for name, group in groups if group is not None and group.find("type") is not None}
     seen: set[int] = set()
-    for launch, names in _spawners(model, _WITH_TYPE) if typed else ():
+    for launch, words in _spawners(model, (*_WITH_TYPE, "-p", "--param-file")) if typed else ():
+        spawned_names = {word.name for word in words}
+        names = spawned_names or _quoted(launch, files)
         for source in files if names else ():
             if not any(declared(source)) or "<<" in source.text:
                 continue
             for key, section in (entry for root in documents(source) for entry in root.entries):
                 group = section.find(PARAMETERS)
-                is_spawned = key.text.strip("/") in {word.name for word in names}
+                is_spawned = key.text.strip("/") in names
                 if group is None or not is_spawned or key.text.strip("/") in typed or id(key) in seen:
                     continue
-                if group.find("type") is None and not _is_mentioned(key.text.strip("/"), files):
+                is_controller = spawned_names or _moved(group, model)
+                if is_controller and not _is_mentioned(key.text.strip("/"), files):
                     seen.add(id(key))
                     yield source, key, launch
 

@@ -1,11 +1,12 @@
 """Axles of steering controllers: wheelbase, tracks, order of the joints and the smallest turning radius.
 
 Sources: ros2_controllers (steering_controllers_library.yaml, ackermann_steering_controller.yaml and .hpp: the right
-wheel is the first of a pair), Humble to Rolling; navigation2 (smac_planner_hybrid.cpp,
-regulated_pure_pursuit_controller: parameter_handler.cpp).
+wheel is the first of a pair; tricycle_controller.cpp: one wheel that steers and drives), Humble to Rolling;
+navigation2 (smac_planner_hybrid.cpp, regulated_pure_pursuit_controller: parameter_handler.cpp).
 """
 
 import math
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
@@ -23,6 +24,10 @@ _TRACKS = {
     "front_wheel_track": "front",
 }
 """Parameter → the axle whose track it is."""
+
+_TRICYCLE = "tricycle_controller/"
+_STEERED = r"_steering_controller/|\btricycle_controller/"
+"""Matches the types of controllers that steer."""
 
 _TOLERANCES = {"wheelbase": 0.1, "steering": 0.25}
 """Accepted relative deviation; the wheels of a steered axle can be some distance from their steering joints."""
@@ -46,8 +51,11 @@ class Axles:
 def axles(model: Model) -> Iterator[Axles]:
     """Yield the steering controllers whose joints all exist."""
     for source in yamls_of_robot(model):
-        for controller in settings(source) if "_steering_controller" in source.text else ():
-            if "_steering_controller/" not in controller.kind:
+        for controller in settings(source) if re.search(_STEERED, source.text) else ():
+            if not re.search(_STEERED, controller.kind):
+                continue
+            if controller.kind.startswith(_TRICYCLE):
+                yield _tricycle(source, controller, model)
                 continue
             flag = controller.group.find("front_steering")
             front_steers = flag is None or flag.text.lower() != "false"
@@ -60,6 +68,26 @@ def axles(model: Model) -> Iterator[Axles]:
                 found[axle] for axle in (("steering", "traction") if front_steers else ("traction", "steering"))
             )
             yield Axles(source, controller, found)
+
+
+def _tricycle(source: Source, controller: ControllerSettings, model: Model) -> Axles:
+    """Return the axles of a controller of one steered and driven wheel; the passive wheels of the robot are the rear.
+
+    The passive wheels are the continuous joints that turn about y and are not on the steered link, if they are all on
+    one axle.
+    """
+    driven, steered = (_wheels(controller, model, (f"{name}_joint_name",)) for name in ("traction", "steering"))
+    found = [wheel_of(model, joint, None) for joint in model.robot.joints if joint.type == "continuous"]
+    own = {wheel.joint.name for _, wheel in driven} | {wheel.joint.parent for _, wheel in driven}
+    passive = [
+        wheel
+        for wheel in found
+        if wheel is not None and abs(wheel.axis[1]) > 0.7 and own.isdisjoint((wheel.joint.name, wheel.joint.parent))
+    ]
+    middles = [wheel.place[0] for wheel in passive]
+    is_axle = len(passive) > 1 and max(middles) - min(middles) < 0.01
+    rear = [(node, wheel) for node, _ in driven for wheel in passive] if is_axle and len(driven) == 1 else []
+    return Axles(source, controller, {"traction": rear, "steering": steered, "front": steered, "rear": rear})
 
 
 def _wheels(controller: ControllerSettings, model: Model, keys: tuple[str, ...]) -> list[tuple[Node, Wheel]]:
@@ -88,7 +116,7 @@ def wrong_lengths(each: Axles) -> Iterator[tuple[Node, str, float]]:
 
 def exchanged(each: Axles) -> Iterator[tuple[Node, str]]:
     """Yield the first joint of a pair that is on the left of the second one, and the message."""
-    for axle in ("traction", "steering"):
+    for axle in ("traction", "steering") if not each.controller.kind.startswith(_TRICYCLE) else ():
         pair = each.wheels[axle]
         if len(pair) == 2 and pair[0][1].place[1] > pair[1][1].place[1] + 0.01 and _points_forward(each):
             node = pair[0][0]

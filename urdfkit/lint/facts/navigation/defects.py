@@ -200,8 +200,10 @@ def _plugins(node: Node) -> Defects:
         names = {word for _, word in listed}
         unlisted = [name for name in others if name not in names]
         undefined = [word for word in names if word not in defined]
+        # Servers with this key, those since Humble, have types for the longest of the lists of behaviors only.
+        is_default = names in DEFAULT_LISTS and (key.text != "behavior_plugins" or len(names) > 4)
         for item, word in listed:
-            has_type = key.text == "observation_sources" or names in DEFAULT_LISTS
+            has_type = key.text == "observation_sources" or is_default
             if word in defined and not has_type and "plugin" not in _keys(defined[word][1]):
                 yield defined[word][0], f"`{key.text}` lists `{word}`, whose section has no `plugin`"
             if word in defined or any(each.text.startswith(f"{word}.") for each, _ in node.entries):
@@ -209,7 +211,7 @@ def _plugins(node: Node) -> Defects:
             near = nearest(word, unlisted, cutoff=0.6) or (
                 unlisted[0] if len(undefined) == len(unlisted) == 1 else None
             )
-            is_needed = word not in DEFAULTS or (names not in DEFAULT_LISTS and len(others) > 1)
+            is_needed = word not in DEFAULTS or (not is_default and len(others) > 1)
             if word in DEFAULTS and near is not None:
                 if is_slip(near.lower(), word.lower()):
                     yield defined[near][0], f"section `{near}` is not in `{key.text}`" + Suggestion(word, near)

@@ -124,12 +124,22 @@ def _unread_sections(files: list[Source]) -> Defects:
                     written.setdefault(package, []).append((source, key))
     for (package, parameter), kinds in loaded.items():
         kind = next(iter(kinds))
+        yield from _misnamed_sections(kind, written.get(package, [])) if len(kinds) == 1 else ()
         sections_of = [(source, key) for source, key in written.get(package, []) if key.text in _LOADED[parameter]]
         if len(kinds) > 1 or kind not in _LOADED[parameter] or len({key.text for _, key in sections_of}) != 1:
             continue
         _, key = sections_of[0]
         if key.text != kind:
             yield *kinds[kind], f"`{parameter}` loads `{kind}`, which does not read the section `{key.text}`"
+
+
+def _misnamed_sections(kind: str, written: list[tuple[Source, Node]]) -> Defects:
+    """Yield the only section with nearly the name of a planner that has no section, in which its parameters are."""
+    classes = {name for names in _LOADED.values() for name in names}
+    named = {key.text: (source, key) for source, key in written if key.text not in classes}
+    near = nearest(kind, named, cutoff=0.85) if kind not in {key.text for _, key in written} else None
+    if near is not None and near.isidentifier():
+        yield *named[near], f"no planner reads the section `{near}`" + Suggestion(kind, near)
 
 
 def _in_ros1(source: Source, loaded: set[str]) -> Defects:

@@ -98,7 +98,7 @@ def misnamed(model: Model) -> Defects:
                     message = f"node `{name}` has no section in {_short(file)}, whose only section is `{keys[0][1]}`"
                     yield node.source, _span(node), message
             elif node.name is not None and _default(node) in {other for _, other in keys} - started:
-                reported.add(name)
+                reported |= {name, _default(node)}
                 message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
                 yield node.source, _span(node), message
             elif (node.name is not None or not node.has_name) and (
@@ -208,7 +208,7 @@ def _listed(source: Source) -> Iterator[tuple[str, Span]]:
 def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str], reported: set[str]) -> Defects:
     """Yield the misspelt names in ``node_names`` of a lifecycle manager, in launch files and YAML.
 
-    The nodes in `reported` have a wrong name, which is reported already.
+    `reported` are the wrong names of nodes that are reported already, and the names that these nodes should have.
     """
     managers = [source for source in model.related_files.values() if "node_names" in source.text]
     lists = {source.file: list(_listed(source)) for source in managers}
@@ -233,7 +233,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str], repor
                 yield source, span, f"no node is called `{name}`" + Suggestion(near, name)
             elif (
                 near is None
-                and name in NODES - own - started
+                and name in NODES - own - started - reported
                 and len(names_listed & own) > 1
                 and not _lists_more(source)
                 and re.search(r"IncludeLaunchDescription|<include\b|- include:", source.text) is None

@@ -36,6 +36,9 @@ _DATA_TYPES = (
 _NAMES = {"LaserScan": r"scan[^/]*$", "PointCloud2": r"(?:cloud|points?)[^/]*$"}
 """Type of messages → the last part of topics that are named after it."""
 
+_NAV2 = "enable_stamped_cmd_vel"
+"""Flag of the nodes of Nav2 for stamped velocity commands; false by default until Jazzy."""
+
 _TRUTHS = {"true": True, "false": False}
 
 
@@ -149,14 +152,21 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
     named: dict[str, list[tuple[Source, Node]]] = {}
     publishers: list[_End] = []
     readers: list[_End] = []
+    flags: list[tuple[Source, Node]] = []
     drives = drive_command_topics(model)
     for source in yamls(model):
         for key, group in sections(source):
             named.setdefault(key.last_name, []).append((source, group))
         for one in declared(source):
+            value = one.settings.find("use_stamped_vel") if one.settings is not None else None
+            is_stamped = _TRUTHS.get(value.text.lower()) if value is not None else None
+            flag = (source, value) if value is not None else None
+            flags += [flag] if flag is not None and is_stamped is not None else []
+            if one.kind.text.startswith("tricycle_controller/") and is_stamped is not None:
+                readers.append(_End(f"{one.name}/cmd_vel", is_stamped, one.name, flag))
             if "diff_drive" in one.kind.text:
                 own = (
-                    _End(f"{one.name}/cmd_vel", True, one.name),
+                    _End(f"{one.name}/cmd_vel", True, one.name, flag if is_stamped else None),
                     _End(f"{one.name}/cmd_vel_unstamped", False, one.name),
                 )
                 readers += [end for end in own if end.topic in drives]
@@ -168,6 +178,11 @@ def _ends(model: Model) -> tuple[list[_End], list[_End]]:
         if commands is None:
             continue
         name = name_of_node(node) or node.program
+        is_set = any(group.find(commands.flag) is not None for _, group in named.get(name, ()))
+        is_default = commands.flag == _NAV2 and not is_set and node.inline is not None and _NAV2 not in node.inline
+        if flags and is_default and not commands.read:
+            # The releases with `use_stamped_vel` have no stamps in Nav2 by default.
+            publishers.append(_End(remapped(node, commands.published), False, name))
         for source, group in named.get(name, ()) if commands.flag else ():
             value = group.find(commands.flag)
             is_stamped = _TRUTHS.get(value.text.lower()) if value is not None else None

@@ -3,8 +3,8 @@
 Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher,
 robot_localization (navsat_transform.cpp, ros_filter.cpp), octomap_server (octomap_server.cpp), nav2_velocity_smoother,
 nmea_navsat_driver (driver.py),
-diff_drive_controller, mecanum_drive_controller and steering_controllers_library (README and source files), Noetic to
-Rolling.
+diff_drive_controller, mecanum_drive_controller, tricycle_controller and steering_controllers_library (README and source
+files), Noetic to Rolling.
 """
 
 from __future__ import annotations
@@ -76,6 +76,9 @@ _OF_FRAME = r"(?m)^\s*\w*frame(?:_id)?\s*:.*$"
 
 _SENDERS = ("twist_mux", "controller_server", "velocity_smoother", "teleop_node")
 """Programs whose velocity commands must reach the drive without a remapping on the command line."""
+
+_CONTROLLERS = r"diff_drive|_steering_controller/|mecanum_|tricycle_controller/"
+"""Matches the types of controllers that read velocity commands."""
 
 _DRIVES = r"drive|planar|velocity|mecanum|holonomic|ackermann|steer|force|prius"
 
@@ -312,7 +315,7 @@ def _drives(model: Model) -> dict[str, str]:
     """Return the names of the drive controllers → their type."""
     found = {each.name: each.kind.text for source in yamls(model) for each in declared(source)}
     found |= {each.name: each.kind for source in yamls(model) for each in settings(source)}
-    return {name: kind for name, kind in found.items() if re.search(r"diff_drive|_steering_controller/|mecanum_", kind)}
+    return {name: kind for name, kind in found.items() if re.search(_CONTROLLERS, kind)}
 
 
 def drive_command_topics(model: Model) -> frozenset[str]:
@@ -326,6 +329,9 @@ def drive_command_topics(model: Model) -> frozenset[str]:
         if "_steering_controller/" in kind:  # the default differs between releases
             found |= {f"{name}/reference_unstamped"} if not is_stamped else set()
             found |= {f"{name}/reference"} if not is_unstamped else set()
+            continue
+        if kind.startswith("tricycle_controller/"):
+            found.add(f"{name}/cmd_vel")
             continue
         if "mecanum_drive_controller/" in kind:  # has `use_stamped_vel` in Humble only
             found.add(f"{name}/reference_unstamped" if is_unstamped else f"{name}/reference")

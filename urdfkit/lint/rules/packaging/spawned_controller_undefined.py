@@ -50,6 +50,7 @@ class SpawnedControllerUndefined(RobotRule):
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.launched_nodes import started
+        from urdfkit.lint.facts.control.ros2_controllers import declared
         from urdfkit.lint.facts.control.spawned_namespaces import plugins_in_other_namespace
         from urdfkit.lint.facts.control.spawned_together import SPAWNERS, left_out, spawned, untyped
 
@@ -62,11 +63,13 @@ class SpawnedControllerUndefined(RobotRule):
         defined = [name for file in parameter_files for name in controllers(file)]
         for source, key, launch in untyped(model):
             message = f"controller `{key.text}` has no `type`, but {launch.file} spawns it"
-            help = "add it to the parameters of `controller_manager`"
-            yield self.at_span(span_of(source, key), message, help=help)
+            help = "add it here, to the parameters of `controller_manager`"
+            place = span_of(source, declared(source)[-1].kind)
+            span = span_of(source, key)
+            yield self.at_span(span, message, help=help, other=place, is_other_wrong=True, cause=message)
         for source, word, name in left_out(model):
             message = f"no launch file spawns controller `{name}`, unlike the other controllers of its file"
-            yield self.at_span(source.span(word.start, word.end), message, names=(name,))
+            yield self.at_span(source.span(word.start, word.end), message, names=(name,), kind="left out")
         for source in launches:
             if source.file.endswith(".launch"):
                 yield from self._namespaces(source, model)
@@ -80,9 +83,8 @@ class SpawnedControllerUndefined(RobotRule):
                     or any(re.search(key_pattern, file.text) for file in parameter_files)
                 ):
                     continue
-                yield self.at_span(
-                    source.span(reference.start, reference.end), f"unknown controller `{reference.name}`" + hint
-                )
+                message = f"unknown controller `{reference.name}`" + hint
+                yield self.at_span(source.span(reference.start, reference.end), message, kind="unknown")
 
     def _namespaces(self, source: Source, model: Model) -> Findings:
         from urdfkit.lint.facts.control.spawned_namespaces import misplaced_controllers

@@ -8,8 +8,8 @@ class TurnTooTight(RobotRule):
 
     ## What it does
     Computes the smallest turning radius from the wheelbase and the limits of the steering joints that a steering
-    controller in YAML names. Reports planners with a smaller ``minimum_turning_radius``, and ``use_rotate_to_heading``
-    of the regulated pure pursuit controller. Deviations of up to 10 % are accepted.
+    controller or ``tricycle_controller`` in YAML names. Reports planners with a smaller ``minimum_turning_radius``, and
+    ``use_rotate_to_heading`` of the regulated pure pursuit controller. Deviations of up to 10 % are accepted.
 
     ## Why is this bad?
     The robot leaves the planned path in tight turns, and does not reach the goal.
