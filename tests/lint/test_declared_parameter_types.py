@@ -76,3 +76,16 @@ def test_a_launch_file_can_name_the_node(tmp_path):
     assert found(tmp_path, files) == []
     files["launch/cart.launch.xml"] = LAUNCH
     assert found(tmp_path, files) == [INTEGER.replace("driver", "motor")]
+
+
+@pytest.mark.parametrize(
+    ("kept", "place"), [("double rate_;", "driver.cpp:4"), ("int rate_;", "driver.yaml:3"), ("", "driver.yaml:3")]
+)
+def test_a_declaration_that_contradicts_its_variable_is_wrong(tmp_path, monkeypatch, kept, place):
+    monkeypatch.chdir(tmp_path)
+    declaration = 'rate_ = declare_parameter<int>("rate", 5);'
+    code = CPP.replace('declare_parameter<double>("rate", 5);', declaration).replace("  }\n};", f"  }}\n  {kept}\n}};")
+    files = {"package.xml": MANIFEST, "cart.urdf": ROBOT, "driver.cpp": code, "driver.yaml": YAML.format("driver")}
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    assert [f"{one.file}:{one.line}" for one in lint(tmp_path) if one.code == "K974"] == [place]

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from urdfkit.description.launch.python_constants import name_of
 from urdfkit.description.packages.related_files import neighbours
-from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.reader import shown_path
+from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, yamls
 from urdfkit.lint.facts.navigation.sections import sections
@@ -42,8 +43,12 @@ SHOWN = {
 }
 
 
-def wrong_types_of_own_nodes(model: Model) -> Iterator[tuple[Source, Node, str]]:
-    """Yield the parameters of another type than a node of the workspace declares: file, value, message."""
+def wrong_types_of_own_nodes(model: Model) -> Iterator[tuple[Source, Node, str, Span | None]]:
+    """Yield the parameters of another type than a node of the workspace declares.
+
+    Yields:
+        File, value and message; the declaration in C++ if the variable that keeps the value has the type of the value.
+    """
     found = [
         (source, key.text.strip("/").rpartition("/")[2], group)
         for source in yamls(model)
@@ -59,7 +64,21 @@ def wrong_types_of_own_nodes(model: Model) -> Iterator[tuple[Source, Node, str]]
             if expected and written and expected != written:
                 right = f"; write {value.text}.0" if (expected, written) == ("double", "int") else ""
                 shown = f"`{value.text}`" if value.text else SHOWN[written]
-                yield source, value, f"`{parameter}` is {shown}, but node `{name}` declares {SHOWN[expected]}" + right
+                message = f"`{parameter}` is {shown}, but node `{name}` declares {SHOWN[expected]}"
+                place = _contradicted(parameter, written, model)
+                yield source, value, message + (right if place is None else ""), place
+
+
+def _contradicted(parameter: str, type: str, model: Model) -> Span | None:
+    """Return the declaration in C++ of a parameter that is kept in a variable of a type; None without one."""
+    for folder in neighbours(model.package).values() if model.package is not None else ():
+        for path, text in node_texts(folder):
+            pattern = rf"\b(\w+)\s*=\s*(?:this->)?(declare_parameter\s*(?:<[^<>]*>)?\s*\(\s*\"{re.escape(parameter)}\")"
+            for at in re.finditer(pattern, text) if parameter in text else ():
+                kept = re.search(rf"\b([\w:]+)\s+{at[1]}\s*[;={{]", text)
+                if kept is not None and any(re.fullmatch(each, kept[1]) and kind == type for each, kind in _CPP_TYPES):
+                    return Source(shown_path(path), text).span(*at.span(2))
+    return None
 
 
 def _declared(model: Model, names: set[str]) -> dict[str, dict[str, str]]:

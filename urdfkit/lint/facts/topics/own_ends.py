@@ -47,6 +47,12 @@ _NAMED = (
 )
 """Matches the name that the code gives its node."""
 
+_PRIVATE = (
+    r"\b(\w+)\s{0,9}[({]\s{0,9}\"~\"\s{0,9}[)}]|\b(\w+)\s{0,9}=\s{0,9}(?:\w+(?:\.|->))?getPrivateNodeHandle\("
+    r"|\b(\w+)\s{0,9}=\s{0,9}ros::NodeHandle\s{0,9}\(\s{0,9}\"~\""
+)
+"""Matches a node handle of roscpp for private names."""
+
 _MAX_FILES = 60
 
 
@@ -63,6 +69,7 @@ class End:
         end: offset after the topic.
         publishes: whether it publishes.
         is_launched: whether a launch file starts a node of the package.
+        is_private: whether its topic is in the namespace of its own node.
     """
 
     path: Path
@@ -73,6 +80,7 @@ class End:
     end: int
     publishes: bool
     is_launched: bool
+    is_private: bool = False
 
 
 def own_ends(model: Model) -> list[End] | None:
@@ -115,7 +123,8 @@ def _placed(end: tuple[End, str, str], own: list[LaunchedNode], model: Model) ->
         for each in moved or [one]:
             if each.topic.startswith("~"):
                 topics = [f"{space}{each.topic[1:]}" for space in names]
-                yield from (_with(each, topic, each.source, each.start, each.end) for topic in topics or [""])
+                found = [_with(each, topic, each.source, each.start, each.end) for topic in topics or [""]]
+                yield from (End(**{**one.__dict__, "is_private": True}) for one in found)
             else:
                 yield _with(each, each.topic, each.source, each.start, each.end, bool(own))
 
@@ -220,10 +229,15 @@ def _value(node: ast.expr | None, reader: LaunchReader, kept: dict[str, ast.expr
 
 
 def _in_cpp(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
+    private = {name for at in re.findall(_PRIVATE, source.text) for name in at if name}
     for at in re.finditer(_IN_CPP, source.text):
         kind = (at[2] or "").strip().rpartition("::")[2]
         publishes = at[1] in ("create_publisher", "create_lifecycle_publisher", "advertise")
         if at[2] is None and at[1] not in ("subscribe", "advertise"):
             continue
         start, end = at.span(3) if at[3] else at.span(1)
-        yield End(path, kind, (at[3] or "").strip("/"), source, start, end, publishes, False), "", source.text
+        topic = (at[3] or "").strip("/")
+        handle = re.search(r"(\w+)\s*(?:\.|->)\s*\Z", source.text[max(at.start() - 60, 0) : at.start()])
+        if topic and handle is not None and handle[1] in private and not at[3].startswith(("/", "~")):
+            topic = f"~/{topic}"
+        yield End(path, kind, topic, source, start, end, publishes, False), "", source.text

@@ -44,8 +44,9 @@ class ParameterTypeWrong(RobotRule):
         from urdfkit.lint.facts.parameters.node_parameters import wrong_numbers_of_nodes
         from urdfkit.lint.facts.parameters.own_parameters import wrong_types_in_launch, wrong_types_of_released_nodes
 
-        for source, value, message in wrong_types_of_own_nodes(model):
-            yield self.at_span(span_of(source, value), message)
+        for source, value, message, declaration in wrong_types_of_own_nodes(model):
+            is_wrong = declaration is not None
+            yield self.at_span(span_of(source, value), message, other=declaration, is_other_wrong=is_wrong)
         for source, place, message in (*wrong_types_in_launch(model), *wrong_types_of_released_nodes(model)):
             yield self.at_span(source.span(*place), message)
         for source in {each.file: each for each, _ in moveit_yamls(model)}.values():

@@ -23,7 +23,8 @@ class TopicUnconnected(RobotRule):
 
     In the code of the nodes of the workspace, also reports a publisher or subscriber on a topic that no other node has,
     if one other node has messages of this type on a topic without a counterpart. The topics that parameters, YAML files
-    and remappings set count.
+    and remappings set count. Reports topics and actions below the name of a controller that the controller does not
+    have, and subscribers with the private name of a topic such as ``joint_states``.
 
     ## Why is this bad?
     The robot does not move, and no node reports an error.
@@ -47,6 +48,7 @@ class TopicUnconnected(RobotRule):
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
         from urdfkit.lint.facts.connections.namespaces import separated_nodes
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.topics.controller_topics import private_readers, wrong_inputs
         from urdfkit.lint.facts.topics.loops import published_together, self_readers
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
         from urdfkit.lint.facts.topics.node_topics import published_commands
@@ -78,5 +80,9 @@ class TopicUnconnected(RobotRule):
         # A topic of the code can be without a counterpart because its remapping has another name.
         for end, message in unpaired(model) if not of_code else ():
             yield self.at_span(end.source.span(end.start, end.end), message, kind="own", names=(end.topic,))
+        for end, message in private_readers(model):
+            yield self.at_span(end.source.span(end.start, end.end), message, names=(end.topic,))
+        for source, name, message in wrong_inputs(model):
+            yield self.at_span(source.span(name.start, name.end), message, names=(name.name,))
         for source, value, near, message in unfed_mux_topics(model):
             yield self.at_span(span_of(source, value), message, names=(near,))
