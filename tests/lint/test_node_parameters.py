@@ -248,6 +248,14 @@ ROS1 = """<launch>
             7,
             "swap",
         ),
+        ("odom_frame_id", "base_frame_id", 0, ""),
+        (
+            '    <param name="global_frame_id" value="map"/>',
+            '    <param name="base_frame_id" value="odom"/>',
+            8,
+            "`odom_frame_id` and `base_frame_id` are both `odom`",
+        ),
+        ('value="map"', 'value="odom"', 8, "`global_frame_id` and `odom_frame_id` are both `odom`"),
         ("odom_frame_id", "odom_frame", 7, "`amcl` has no parameter `odom_frame`; did you mean `odom_frame_id`?"),
     ],
 )

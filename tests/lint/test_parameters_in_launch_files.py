@@ -97,3 +97,29 @@ def test_the_parameter_with_the_semantic_description_in_ros1(tmp_path, name, oth
     shown = name.replace("$(arg robot_description)", "robot_description")
     message = f"MoveIt reads the SRDF from `robot_description_semantic`, not from `{shown}`"
     assert found(cart, "L110") == ([("a.launch", 2, message)] if is_reported else [])
+
+
+LOADED = """<launch>
+  <node pkg="moveit_ros_move_group" type="move_group" name="move_group">
+    <rosparam command="load"{} file="$(find cart)/config/controllers.yaml"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("space", "text", "is_reported"),
+    [
+        ("", "controller_list:\n  - {name: arm}\n", False),
+        (' ns="controllers"', "controller_list:\n  - {name: arm}\n", True),
+        (' ns="$(arg space)"', "controller_list:\n  - {name: arm}\n", False),
+        (' ns="ompl"', "planner_configs: {}\n", False),
+    ],
+)
+def test_the_list_of_controllers_that_move_group_reads_in_ros1(tmp_path, space, text, is_reported):
+    cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
+    write(cart / "config/controllers.yaml", text)
+    write(cart / "launch/a.launch", LOADED.format(space))
+    message = "`moveit_ros_move_group` reads its own parameters, not those in `controllers`; remove `ns`"
+    rows = [row for row in found(cart, "L110") if "remove `ns`" in row[2]]
+    assert rows == ([("a.launch", 3, message)] if is_reported else [])

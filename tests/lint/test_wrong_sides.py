@@ -8,6 +8,7 @@ import pytest
 
 from urdfkit.description.xml.source import Span
 from urdfkit.lint import lint
+from urdfkit.lint.engine.consequences import without_consequences
 from urdfkit.lint.engine.contradictions import at_wrong_side
 from urdfkit.lint.engine.run import run
 from urdfkit.lint.finding import Finding, Fix
@@ -191,6 +192,69 @@ def test_a_bridge_with_equal_names_names_the_topic_of_the_sensor(tmp_path, ros, 
     (row,) = rows(cart, "K969")
     assert row[0] == file
     assert (row[2] == "a bridge reads `body/imu`, but this sensor publishes on `pelvis`") is (file == "cart.urdf")
+
+
+@pytest.mark.parametrize(
+    ("ros", "gazebo", "is_reported"), [("right/eye", "left/eye", True), ("eye", "left/eye", False)]
+)
+def test_a_bridge_of_topics_of_two_sides_is_wrong(tmp_path, ros, gazebo, is_reported):
+    cart = package(tmp_path / "cart", "ros_gz_bridge")
+    write(cart / "urdf/cart.urdf", CAMERA.format(topic="left/eye", imu="right/imu"))
+    write(cart / "config/bridge.yaml", bridged(("left/eye", "left/eye"), (ros, gazebo)))
+    message = "the bridge connects `right/eye` with `left/eye` of the other side; did you mean `right/eye`?"
+    expected = [("bridge.yaml", 7, message, [])] if is_reported else []
+    assert [row for row in rows(cart, "K969") if "other side" in row[2]] == expected
+
+
+ARMS = "".join(
+    f'  <link name="{side}_{part}"/>\n  <joint name="{side}_{part}_joint" type="continuous">'
+    f'<parent link="base"/><child link="{side}_{part}"/></joint>\n'
+    for side in ("left", "right")
+    for part in ("shoulder", "elbow")
+)
+SIDED = """controller_manager:
+  ros__parameters:
+    NAME:
+      type: joint_trajectory_controller/JointTrajectoryController
+NAME:
+  ros__parameters:
+    joints: [left_shoulder_joint, JOINT]
+    command_interfaces: [position]
+    state_interfaces: [position]
+    constraints:
+      left_elbow_joint: {goal: 0.1}
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "joint", "is_reported"),
+    [
+        ("left_arm", "left_elbow_joint", False),
+        ("left_arm", "right_elbow_joint", True),
+        ("arms", "right_elbow_joint", False),
+    ],
+)
+def test_a_joint_of_the_other_side_is_reported_in_the_list_of_its_controller(tmp_path, name, joint, is_reported):
+    cart = package(tmp_path / "cart", "joint_trajectory_controller")
+    write(cart / "urdf/cart.urdf", f'<robot name="cart">\n  <link name="base"/>\n{ARMS}</robot>\n')
+    write(cart / "config/arm.yaml", SIDED.replace("NAME", name).replace("JOINT", joint))
+    message = "`joints` of controller `left_arm` has `right_elbow_joint` of the other side"
+    message += "; did you mean `left_elbow_joint`?"
+    found = rows(cart, "K976")
+    sides = [row for row in found if "of the other side" in row[2]]
+    assert sides == ([("arm.yaml", 7, message, [])] if is_reported else [])
+    assert found == sides or name != "left_arm"
+
+
+@pytest.mark.parametrize(
+    ("cause", "kind", "consequence"),
+    [("K976", "side", "M112"), ("K976", "side", "K971"), ("K965", "joint", "M112"), ("K971", "", "K982")],
+)
+def test_consequences_of_a_wrong_joint_and_of_a_wrong_speed_are_left_out(cause, kind, consequence):
+    line = 1 if cause == "K971" else 2
+    first, second = finding(cause, 1, names=("elbow",), kind=kind), finding(consequence, line, names=("elbow",))
+    assert without_consequences([first, second]) == [first]
+    assert without_consequences([second]) == [second]
 
 
 INCLUDED = """from launch import LaunchDescription

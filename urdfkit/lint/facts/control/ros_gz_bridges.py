@@ -75,12 +75,14 @@ class Bridged:
         ros: ROS message type.
         gazebo: Gazebo message type.
         direction: one of `DIRECTIONS`, or the source text.
+        published: name of the ROS topic; None if it is that of Gazebo.
     """
 
     topic: Named | None
     ros: Named | None
     gazebo: Named | None
     direction: Named | None
+    published: Named | None = None
 
 
 def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
@@ -99,7 +101,7 @@ def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
         if any(key.text in ("ros_type_name", "gz_type_name", "gz_topic_name", "ign_type_name") for key in keys):
             topic = named(entry, "gz_topic_name", "ign_topic_name", "topic_name", "ros_topic_name")
             types = named(entry, "ros_type_name"), named(entry, "gz_type_name", "ign_type_name")
-            yield Bridged(topic, *types, named(entry, "direction")), keys
+            yield Bridged(topic, *types, named(entry, "direction"), named(entry, "ros_topic_name")), keys
 
 
 def bridged_topics(model: Model) -> Iterator[tuple[str, str, bool]]:

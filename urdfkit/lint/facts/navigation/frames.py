@@ -8,6 +8,7 @@ from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, references
 from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.navigation.tables import DIFFERENT_FRAMES
 from urdfkit.lint.facts.topics.graph import published_by_type
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
@@ -22,16 +23,11 @@ _ROLES = {
 _MOVING = "diff_drive_controller/"
 """Part of the types of controllers that publish the transform of ``base_frame_id``."""
 
-_PAIRS = (
-    *(("map_frame", "odom_frame"), ("odom_frame", "base_frame"), ("global_frame_id", "odom_frame_id")),
-    *(("odom_frame_id", "base_frame_id"), ("map_frame", "base_frame"), ("global_frame_id", "base_frame_id")),
-)
-
 
 def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield the second of two frames of a node in a YAML file that must differ and are equal, with the message."""
     for node in nodes(source) if "frame" in source.text else ():
-        for names in _PAIRS if node.entries else ():
+        for names in DIFFERENT_FRAMES if node.entries else ():
             first, second = (node.find(name) for name in names)
             if first is not None and second is not None and first.text and first.text == second.text:
                 wrong = first if second.text == "odom" and names[0] in ("map_frame", "global_frame_id") else second

@@ -201,6 +201,12 @@ MUX = ("topic", "timeout", "priority", "short_desc", "name")
 FRAMES = ("global_frame", "global_frame_id", "local_frame", "map_frame", "odom_frame", "odom_frame_id", "world_frame")
 """Parameters whose values are usually ``map`` or ``odom``."""
 
+DIFFERENT_FRAMES = (
+    *(("map_frame", "odom_frame"), ("odom_frame", "base_frame"), ("global_frame_id", "odom_frame_id")),
+    *(("odom_frame_id", "base_frame_id"), ("map_frame", "base_frame"), ("global_frame_id", "base_frame_id")),
+)
+"""Pairs of parameters of a node whose frames must differ."""
+
 VELOCITY_LIMITS = {"max_velocity": -1, "min_velocity": 1, "max_accel": -1, "max_decel": 1}
 """List of velocity_smoother → the sign that its values must not have."""
 

@@ -14,7 +14,7 @@ from urdfkit.errors import nearest
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
-from urdfkit.lint.facts.navigation.tables import ORDERED
+from urdfkit.lint.facts.navigation.tables import DIFFERENT_FRAMES, ORDERED
 from urdfkit.lint.facts.parameters.schemas import OF_ROS1
 
 Defects = Iterator[tuple[Named, str]]
@@ -76,6 +76,12 @@ def launch_parameter_defects(source: Source) -> Defects:
                 least, most = (_number(written[each][1].name) for each in (low, high))
                 if least is not None and most is not None and least > most:
                     yield written[low][1], f"`{low}` is {least:g}, more than `{high}`, {most:g}"
+        for first, second in DIFFERENT_FRAMES:
+            frames = [written[name][1] for name in (first, second) if name in written]
+            if len(frames) == 2 and frames[0].name == frames[1].name and "$" not in frames[0].name:
+                is_first = frames[1].name == "odom" and not first.startswith("odom")
+                wrong = frames[0] if is_first else frames[1]
+                yield wrong, f"`{first}` and `{second}` are both `{wrong.name}`"
         odom, world = ([written[name][1] for name in names if name in written] for names in _FRAMES)
         if odom and world and (odom[0].name, world[0].name) == ("map", "odom"):
             yield odom[0], "the odometry frame is `map` and the map frame is `odom`; swap them"

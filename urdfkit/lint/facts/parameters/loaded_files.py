@@ -48,7 +48,8 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
             continue
         text, name = uncommented(parameters), Path(parameters.file).name
         below = tag.parent.attributes.get("pkg") if tag.parent is not None and tag.parent.name == "node" else None
-        if below is not None and below.value in _FLAT and "ns" in attributes and "$" not in attributes["ns"].value:
+        is_flat = below is not None and (below.value in _FLAT or re.search(_FLAT_FILES.get(below.value, "$^"), text))
+        if below is not None and is_flat and "ns" in attributes and "$" not in attributes["ns"].value:
             space = attributes["ns"].value.strip("/")
             yield attributes["ns"], f"`{below.value}` reads its own parameters, not those in `{space}`; remove `ns`"
         is_replaced = "subst_value" in attributes and attributes["subst_value"].value.lower() != "false"
@@ -75,6 +76,9 @@ def _replaced(text: str, namespace: str) -> str | None:
             return end
     return None
 
+
+_FLAT_FILES = {"moveit_ros_move_group": r"(?m)^controller_list[ \t]*:"}
+"""Package → matches the files whose parameters its node reads from its own namespace only."""
 
 _FLAT = ("amcl", "gmapping", "joy", "robot_localization", "teleop_twist_joy", "twist_mux")
 """Packages whose nodes have no parameters of another namespace."""

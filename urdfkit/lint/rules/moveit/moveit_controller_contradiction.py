@@ -64,7 +64,7 @@ class MoveitControllerContradiction(RobotRule):
                         yield self.at_span(span_of(source, entry.name), message)
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
-                        yield self.at_span(span_of(source, node), message, names=(node.text,))
+                        yield self.at_span(span_of(source, node), message, names=(node.text, name))
                     for node, message in partial_lists(entry, started.get(name, [])):
                         yield self.at_span(span_of(source, node), message, kind="partial")
         for span, message, name in unspawned(names, started, model):

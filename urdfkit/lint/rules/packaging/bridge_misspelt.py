@@ -44,7 +44,7 @@ class BridgeMisspelt(RobotRule):
     Checks the configuration of ros_gz_bridge, in YAML and in the arguments of launch files, for:
 
     - misspelt message types, keys, directions and topics of the robot
-    - pairs of types that cannot be converted
+    - pairs of types that cannot be converted, and pairs of topics of the left and the right side of the robot
     - topics of commands and sensors that are bridged in the wrong direction
 
     ## Why is this bad?
@@ -194,6 +194,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
     from urdfkit.lint.facts.gazebo.plugins import references
     from urdfkit.lint.facts.topics.misspelt import COMMON
     from urdfkit.lint.facts.topics.words import Words
+    from urdfkit.lint.facts.twins import mirrored, side_of
 
     words = Words(model)
     commands: set[str] = set()
@@ -211,6 +212,13 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
         if bridge.topic is None:
             continue
         topic, direction = bridge.topic.name.strip("/"), bridge.direction.name if bridge.direction is not None else ""
+        ros = bridge.published.name.strip("/") if bridge.published is not None else ""
+        sides = side_of(topic), side_of(ros)
+        own = [each for each in mirrored(bridge.topic.name) if each.strip("/") in {ros, *robot_topics}]
+        if all(sides) and len(set(sides)) > 1 and own:
+            message = f"the bridge connects `{ros}` with `{bridge.topic.name}` of the other side"
+            yield source, bridge.topic, message + Suggestion(own[0], bridge.topic.name)
+            continue
         unbridged = [name for name in robot_topics if (source.file, name) not in bridged_topics]
         suggestion = nearest(topic, sorted(unbridged), cutoff=0.75) if topic not in robot_topics else None
         if topic in COMMON and suggestion is not None and suggestion not in COMMON:
@@ -265,7 +273,9 @@ def _misnamed_sensor(source: Source, reference: Named, meant: str, model: Model)
     used, named = reference.name.strip("/"), meant.strip("/")
     for entry in entries if named and not is_slip(used, named) and not used.startswith(f"{named}/") else ():
         gazebo, ros = entry.find("gz_topic_name") or entry.find("ign_topic_name"), entry.find("ros_topic_name")
-        if gazebo is not None and ros is not None and gazebo.text == ros.text == reference.name:
+        if gazebo is None or source.offset(gazebo.line, gazebo.column) != reference.start:
+            continue
+        if ros is not None and gazebo.text == ros.text == reference.name:
             elements = [each.element for each in published(model) if each.topic.strip("/") == named]
             return elements[0] if len(elements) == 1 and elements[0].tag == "topic" else None
     return None

@@ -1,14 +1,22 @@
 """K976 controller-joint-foreign."""
 
+import re
+from collections.abc import Iterator
+
+from urdfkit.defect_message import Suggestion
+from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
+from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.facts.twins import mirrored, side_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ControllerJointForeign(RobotRule):
-    """A controller has gains or tolerances for a joint that it does not control.
+    """A controller has a joint of the other side, or gains or tolerances for a joint that it does not control.
 
     ## What it does
     Compares the groups in ``constraints`` and ``gains`` of trajectory controllers with their ``joints``. Names that
-    resemble a joint of the controller are reported as misspelt by K962.
+    resemble a joint of the controller are reported as misspelt by K962. Also reports a joint of the other side of the
+    robot in a list of joints, if the name of the controller or of the list states the side.
 
     ## Why is this bad?
     The values have no effect, and the intended joint has the default gains or tolerances.
@@ -37,11 +45,15 @@ class ControllerJointForeign(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each group of another joint."""
-        from urdfkit.lint.facts.control.controller_settings import misspelt_names, settings
+        from urdfkit.lint.facts.control.controller_settings import misspelt_names
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.fix_builders import meant
 
         for source in yamls(model):
+            for one in settings(source) if re.search(_SIDES, source.text) else ():
+                for item, near, message in _of_other_side(one, model):
+                    message += Suggestion(near, item.text)
+                    yield self.at_span(span_of(source, item), message, names=(item.text, near), kind="side")
             if "constraints" not in source.text and "gains" not in source.text:
                 continue
             misspelt = {(node.line, node.column) for node, _, _ in misspelt_names(source)}
@@ -56,4 +68,28 @@ class ControllerJointForeign(RobotRule):
                         if is_joint and "$" not in inner.text and (inner.line, inner.column) not in misspelt:
                             message = f"`{key.text}` has `{inner.text}`, which controller `{one.name}` does not control"
                             hint = meant(inner.text, names)[1]
-                            yield self.at_span(span_of(source, inner), message + hint, names=(inner.text,))
+                            yield self.at_span(
+                                span_of(source, inner), message + hint, names=(inner.text,), kind="foreign"
+                            )
+
+
+_SIDES = "left|right|[lr]_"
+_LISTS = r"joints|(?:left|right)_wheel(?:_names)?"
+
+
+def _of_other_side(one: ControllerSettings, model: Model) -> Iterator[tuple[Node, str, str]]:
+    """Yield the only joint of a list on the other side of the robot, its counterpart and a message.
+
+    The name of the controller or of the list states the side, and another joint is on this side.
+    """
+    for key, value in one.group.entries:
+        sides = [side_of(item.text) for item in value.items] if re.fullmatch(_LISTS, key.text) else []
+        side = side_of(key.text) or side_of(one.name)
+        wrong = [at for at, each in enumerate(sides) if each and side and each != side]
+        if len(wrong) != 1 or side not in sides:
+            continue
+        item, names = value.items[wrong[0]], value.texts()
+        meant = [each for each in mirrored(item.text) if each in model.robot.joint_by_name and each not in names]
+        if len(meant) == 1 and item.text in model.robot.joint_by_name:
+            message = f"`{key.text}` of controller `{one.name}` has `{item.text}` of the other side"
+            yield item, meant[0], message

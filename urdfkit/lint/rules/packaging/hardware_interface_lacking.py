@@ -186,7 +186,9 @@ class HardwareInterfaceLacking(RobotRule):
                 help = help if near is None else f"write `{near}`"
             span, kind = span_of(source, first.where), "joint" if interfaces is None else side
             other = _entry_before(first.joint, controller, hardware, model) if interfaces is None else None
-            found = self.at_span(span, message, joint=first.joint, help=help, kind=kind, names=joints[1:])
+            found = self.at_span(
+                span, message, joint=first.joint, help=help, kind=kind, names=(*joints[1:], controller.name)
+            )
             yield Finding(**{**found.__dict__, "other": other, "is_other_wrong": other is not None})
 
 

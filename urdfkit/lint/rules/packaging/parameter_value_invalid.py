@@ -128,7 +128,7 @@ class ParameterValueInvalid(RobotRule):
                 for place, message in _repeated_keys(node):
                     yield self.at_span(span_of(source, place), message, kind="key")
                 for place, message in (*_in_any(node, source.file in of_moveit), *in_controllers):
-                    yield self.at_span(span_of(source, place), message)
+                    yield self.at_span(span_of(source, place), message, names=(place.text,))
                 for place, message, lacking in repeated_joints(node) if is_of_controllers else ():
                     kind = "twice" if lacking else ""
                     yield self.at_span(span_of(source, place), message, names=lacking, kind=kind)
