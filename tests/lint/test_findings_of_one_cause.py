@@ -60,7 +60,7 @@ def found(folder, files, code, capsys):
 def test_a_joint_without_transmission_is_found_in_the_variant(tmp_path, capsys, transmissions, count):
     files = {"arm.urdf.xacro": robot(transmissions), "control.yaml": YAML, "arm.launch": LAUNCH}
     findings = found(tmp_path, files, "K963", capsys)
-    assert [(severity, line) for severity, line, _ in findings] == [("warning", 11)] * count
+    assert [(severity, line) for severity, line, _ in findings] == [("warning", 18)] * count
     assert all("joint `j3`, which has no transmission" in message for *_, message in findings)
 
 

@@ -37,6 +37,9 @@ _OF_WHOLE_ROBOT = frozenset(("J429", "K970", "S901", "S908", "S911", "S915", "S9
 _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
 """Findings on a robot whose package.xml names the build system of the other version of ROS."""
 
+_OF_GROUPS = (("M105", "group"), ("M107", "foreign"), ("M109", "foreign"))
+"""Findings on groups of an SRDF that lack joints or links."""
+
 _ON_PARAMETERS = (
     *("K956", "K958", "K959", "K960", "K962", "K967", "K969", "K971", "K974", "K975", "K977", "K979", "K981", "K982"),
     *("K961", "K983", "K984", "K985", "L104", "M108", "M109", "M111", "M112"),
@@ -64,6 +67,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K968", ""), "line", ("K980", "")),
     (("K969", ""), "line", ("K977", "")),
     *(((code, ""), "line", ("K992", "")) for code in _ON_PARAMETERS),
+    (("K992", "bounds"), "robot", ("J405", "computed")),
     (("K992", "numbered"), "meant", ("K962", "")),
     (("K971", ""), "line", ("K956", "")),
     (("K971", ""), "line", ("K974", "")),
@@ -115,7 +119,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("J427", ""), "name", ("S915", "")),
     (("J416", ""), "line", ("N304", "")),
     (("K963", ""), "name", ("K971", "incomplete")),
-    (("K970", ""), "robot", ("K979", "")),
+    (("K970", ""), "robot", ("K979", "size")),
+    (("G620", ""), "robot", ("K979", "size")),
     (("K973", "missing"), "line", ("K973", "folder")),
     (("K973", "name"), "name", ("K956", "")),
     (("K971", "twice"), "name", ("K962", "")),
@@ -139,6 +144,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("S904", ""), "name", ("J413", "")),
     (("S917", ""), "name", ("G619", "")),
     (("S917", ""), "name", ("J413", "")),
+    (("S917", ""), "name", ("S919", "")),
     (("S907", ""), "name", ("K970", "place")),
     (("S907", ""), "name", ("S909", "")),
     (("K959", ""), "meant", ("K962", "")),
@@ -147,7 +153,9 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("M104", ""), "name", ("M107", "")),
     (("M104", "unused"), "names", ("M108", "")),
     (("M104", "unused"), "names", ("M109", "")),
+    *((("M105", "side"), "name", each) for each in _OF_GROUPS),
     (("M106", ""), "name", ("M107", "")),
+    (("M107", "foreign"), "name", ("M109", "foreign")),
     (("M109", ""), "line", ("M112", "partial")),
     (("M110", ""), "name", ("M102", "reason")),
     (("S909", ""), "name", ("J427", "")),
@@ -176,6 +184,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K973", "find_package"), "robot", ("K972", "build type")),
     (("K973", "setup.py"), "robot", ("K973", "missing")),
     (("M102", "disable_collisions"), "robot", ("M110", "")),
+    *((("S909", ""), "robot", each) for each in _OF_GROUPS),
     (("T201", ""), "robot", ("M102", "reason")),
     (("T201", ""), "robot", ("M105", "")),
     (("T202", ""), "robot", ("M102", "reason")),
@@ -205,7 +214,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T207", ""), "robot", ("Z802", "undefined")),
     (("Z817", ""), "robot", ("K969", "topic")),
     (("J405", ""), "name", ("J420", "")),
-    (("J407", ""), "name", ("J420", "")),
+    *((("J407", ""), "name", (code, "")) for code in ("C719", "J420", "M107", "S919")),
     (("J408", ""), "line", ("S915", "")),
     (("S907", ""), "line", ("S909", "")),
     (("S909", ""), "name", ("K970", "")),

@@ -18,8 +18,10 @@ from urdfkit.lint.facts.moveit.srdf import groups, joints_of
 
 def projection_defects(
     source: Source, root: Element, robot: Robot, texts: Collection[str]
-) -> Iterator[tuple[Node, str]]:
+) -> Iterator[tuple[Node, str, tuple[str, ...]]]:
     """Yield the projections of groups with joints that the groups do not contain, or that no other file names.
+
+    The names after the message are the joint and its group if the group does not contain it.
 
     Args:
         source: a file with planners.
@@ -37,9 +39,10 @@ def projection_defects(
         unknown = [name for name in names if name not in robot.joint_by_name] if not foreign else []
         unknown = [name for name in unknown if not any(re.search(rf"\b{re.escape(name)}\b", text) for text in texts)]
         if node is not None and unknown and len(unknown) < len(names):
-            yield node, f"joint `{unknown[0]}` of `projection_evaluator` does not exist in the robot"
+            yield node, f"joint `{unknown[0]}` of `projection_evaluator` does not exist in the robot", ()
         if node is not None and foreign:
-            yield node, f"joint `{foreign[0]}` of `projection_evaluator` is not in group `{group.text}`"
+            message = f"joint `{foreign[0]}` of `projection_evaluator` is not in group `{group.text}`"
+            yield node, message, (foreign[0], group.text)
 
 
 def group_of_states(name: str, candidates: Collection[str], root: Element, robot: Robot) -> str | None:

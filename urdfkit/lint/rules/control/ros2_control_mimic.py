@@ -9,7 +9,7 @@ class Ros2ControlMimic(RobotRule):
 
     ## What it does
     Compares the parameter with the joints and with ``<mimic>`` of the same joint. Since Jazzy, also reports a mimic
-    joint with a command interface.
+    joint with a command interface. Without a target, the release is that which the files of the packages name.
 
     ## Why is this bad?
     The hardware and ``robot_state_publisher`` couple the joint to different joints, or the description is rejected.
@@ -48,7 +48,8 @@ class Ros2ControlMimic(RobotRule):
             for element in block.element.find_all("joint"):
                 name = element.get("name") or ""
                 if (message := _commanded(model, element, name)) is not None:
-                    yield self.at(model, element, message, joint=name, help="remove its command interfaces")
+                    place = element.find("command_interface") or element
+                    yield self.at(model, place, message, joint=name, help="remove its command interfaces")
                 for parameter in (each for each in element.find_all("param") if each.get("name") == "mimic"):
                     master = parameter.text.strip()
                     if name not in joints or "$" in master:
@@ -72,10 +73,10 @@ def _commanded(model: Model, element: Element, name: str) -> str | None:
 
     Source: ros2_control (hardware_interface/src/component_parser.cpp).
     """
-    from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
+    from urdfkit.lint.facts.gazebo.named_releases import is_since_jazzy
 
     joint = model.robot.joint_by_name.get(name)
     is_mimic = joint is not None and joint.mimic is not None and (element.get("mimic") or "true").lower() != "false"
-    if model.release not in WITHOUT_CLASSIC or not is_mimic or element.find("command_interface") is None:
+    if not is_mimic or element.find("command_interface") is None or not is_since_jazzy(model):
         return None
     return f"joint `{name}` mimics another joint and has a command interface, which ros2_control rejects"

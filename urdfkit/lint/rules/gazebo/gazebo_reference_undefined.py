@@ -68,7 +68,7 @@ class GazeboReferenceUndefined(RobotRule):
             if (sensor.type or "").strip() in _OF_JOINTS:
                 message = f"sensor `{sensor.name or 'sensor'}` measures a joint, but `{block.reference}` is a link"
                 help = f"write it in the <gazebo> of a joint, such as `{above[0]}`"
-                yield self.at(model, sensor.element, message, help=help, severity="warning")
+                yield self.at(model, block.element, message, attribute="reference", help=help, severity="warning")
 
     def _references(self, model: Model) -> Findings:
         robot = model.robot

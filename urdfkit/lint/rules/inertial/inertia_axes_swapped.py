@@ -81,7 +81,17 @@ class InertiaAxesSwapped(RobotRule):
             element = inertial.element.find("inertia") or inertial.element
             shown = " ".join(f"{value:.3g}" for value in expected)
             help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
-            yield self.at(model, element, message, link=link.name, help=help, fix=computed(model, link, element))
+            fix, origin = computed(model, link, element), inertial.element.find("origin")
+            if fix is None and origin is not None and _lacks_rotation(link):
+                yield self.at(model, origin, message, attribute="rpy", link=link.name, help=help)
+            else:
+                yield self.at(model, element, message, link=link.name, help=help, fix=fix)
+
+
+def _lacks_rotation(link: Link) -> bool:
+    """Return whether all shapes of a link have the same rotation, and its inertial has none."""
+    turns = {shape.origin.rpy for shape in link.collisions or link.visuals}
+    return len(turns) == 1 and any(*turns) and link.inertial is not None and not any(link.inertial.origin.rpy)
 
 
 def _is_of_swapped_cylinder(link: Link, mass: float, actual: tuple[float, ...], expected: tuple[float, ...]) -> bool:

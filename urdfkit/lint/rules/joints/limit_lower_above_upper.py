@@ -52,7 +52,10 @@ class LimitLowerAboveUpper(RobotRule):
                 attribute = "lower" if limit.lower is not None else "upper"
                 help = "swap the limits or correct their signs"
                 fix = _swapped(limit, model)
-                yield self.at(model, limit.element, message, attribute=attribute, joint=joint.name, help=help, fix=fix)
+                kind = "" if fix else "computed"
+                yield self.at(
+                    model, limit.element, message, attribute=attribute, joint=joint.name, help=help, fix=fix, kind=kind
+                )
 
 
 def _swapped(limit: Limit, model: Model) -> Fix | None:

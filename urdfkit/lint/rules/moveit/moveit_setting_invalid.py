@@ -80,12 +80,13 @@ class MoveitSettingInvalid(RobotRule):
                 *(without_chain(source, root, model.robot) if not model.is_incomplete else ()),
                 *(orientation_out_of_reach(source, root, model.robot) if not model.is_incomplete else ()),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
-                *projection_defects(
-                    source, root, model.robot, [text for name, text in texts.items() if name != source.file]
-                ),
             ]
             for node, message in defects:
                 yield self.at_span(span_of(source, node), message, names=(node.text,))
+            others = [text for name, text in texts.items() if name != source.file]
+            for node, message, names in projection_defects(source, root, model.robot, others):
+                kind = "foreign" if names else ""
+                yield self.at_span(span_of(source, node), message, kind=kind, names=names or (node.text,))
             stops = ros_version(source) == 2
             for key, node, message in (flag for entry in entries(source) for flag in _not_boolean(entry)):
                 severity = "error" if stops and key in _READ_BY_MOVEIT2 else self.severity

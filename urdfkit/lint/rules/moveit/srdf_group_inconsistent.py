@@ -16,6 +16,7 @@ class SrdfGroupInconsistent(RobotRule):
     Checks that
 
     - the tip of a chain is below its base, and a group does not contain itself
+    - a chain of a group with `left` or `right` in its name does not end on the other side of the robot
     - the parent link of an end effector is above the end effector in the tree, is in the parent group, and is not in
       the group of the end effector
     - the parent group of an end effector is not its own group, nor a part of it
@@ -56,6 +57,7 @@ class SrdfGroupInconsistent(RobotRule):
                 empty = severity_for(root, model, "error")  # MoveIt has no joints to plan for
                 for chain in group.find_all("chain"):
                     yield from self._chain(chain, model, empty)
+                    yield from self._side(chain, name, model, severity)
                 for below in group.find_all("group"):
                     if _contains(below.get("name") or "", name, by_name):
                         yield self.at(model, below, f"group `{name}` contains itself", attribute="name", severity=empty)
@@ -101,7 +103,16 @@ class SrdfGroupInconsistent(RobotRule):
                         f"parent link `{parent}` of end effector `{effector.get('name')}` is not in its parent group"
                     )
                     help = f"write a link of `{carrier}`"
-                    yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
+                    yield self.at(
+                        model,
+                        effector,
+                        message,
+                        attribute="parent_link",
+                        help=help,
+                        severity=severity,
+                        kind="group",
+                        names=(carrier,),
+                    )
                 elif not is_own and parent in model.robot.link_by_name and name != effector.get("parent_group"):
                     yield from self._carried(effector, root, model, severity)
             wrong = list(self._passive(root, model, severity))
@@ -206,6 +217,27 @@ class SrdfGroupInconsistent(RobotRule):
             help = "swap base_link and tip_link" if swapped else None
             message = f"tip link `{tip}` is not below base link `{base}`"
             yield self.at(model, chain, message, help=help, severity=severity)
+
+    def _side(self, chain: Element, group: str, model: Model, severity: Severity | None) -> Findings:
+        """Yield a finding for an end of a chain on the side of the robot that the name of the group contradicts."""
+        from urdfkit.lint.facts.twins import mirrored, side_of
+
+        robot, side = model.robot, side_of(group)
+        ends = {name: chain.get(name) or "" for name in ("base_link", "tip_link")}
+        if not side or path_between(ends["base_link"], ends["tip_link"], robot) is None:
+            return
+        own = {
+            name: next((each for each in mirrored(link) if each in robot.link_by_name), None)
+            for name, link in ends.items()
+            if side_of(link) not in ("", side)
+        }
+        meant = {**ends, **{name: link or "" for name, link in own.items()}}
+        if not own or path_between(meant["base_link"], meant["tip_link"], robot) is None:
+            return
+        name, link = next(iter(own.items()))
+        message = f"{name.replace('_', ' ')} `{ends[name]}` of group `{group}` is on the other side of the robot"
+        help = f"write `{link}`"
+        yield self.at(model, chain, message, attribute=name, help=help, severity=severity, kind="side", names=(group,))
 
 
 def _contains(name: str, wanted: str, by_name: dict[str, Element]) -> bool:

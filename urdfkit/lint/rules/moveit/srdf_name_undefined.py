@@ -64,7 +64,7 @@ class SrdfNameUndefined(RobotRule):
                     continue
                 suggestion, hint = meant(name, existing[kind])
                 # A group that has the name of another one, which srdf-duplicate reports, leaves its own undefined.
-                if kind == "group" and suggestion is None and len(groups(root)) < len(root.find_all("group")):
+                if kind == "group" and len(groups(root)) < len(root.find_all("group")):
                     continue
                 if kind == "group" and suggestion is None:  # short names such as `arm`
                     slip = next((each for each in existing[kind] if is_slip(name, each)), None)

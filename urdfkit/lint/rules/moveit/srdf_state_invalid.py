@@ -65,7 +65,13 @@ class SrdfStateInvalid(RobotRule):
                 joint = element.get("name")
                 message = f"group `{group}` contains joint `{joint}`, but its states have values for `{counterpart}`"
                 yield self.at(
-                    model, element, message, attribute="name", joint=joint, severity=severity, names=(counterpart,)
+                    model,
+                    element,
+                    message,
+                    attribute="name",
+                    joint=joint,
+                    severity=severity,
+                    names=(counterpart, group),
                 )
             excluded: set[str] = set()
             for joints, numbers in reversed_limits(root, robot):
@@ -88,7 +94,7 @@ class SrdfStateInvalid(RobotRule):
                 if len(foreign) > _MAX_FOREIGN:
                     listed = [f"`{value.get('name')}`" for value in foreign[:3]] + ["…"] * (len(foreign) > 3)
                     message = f"joints {', '.join(listed)} of state `{state.get('name')}` are not in group `{group}`"
-                    yield self.at(model, state, message, severity=severity, names=(group,))
+                    yield self.at(model, state, message, severity=severity, kind="foreign", names=(group,))
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
                     message = cause = f"joint `{value.get('name')}` is not in group `{group}`"
                     name = value.get("name") or ""
@@ -98,7 +104,16 @@ class SrdfStateInvalid(RobotRule):
                     ]
                     other = parent_at(model, robot.joint_by_name[branch[0]]) if len(branch) == 1 else None
                     yield self.at(
-                        model, value, message, attribute="name", joint=name, severity=severity, cause=cause, other=other
+                        model,
+                        value,
+                        message,
+                        attribute="name",
+                        joint=name,
+                        severity=severity,
+                        cause=cause,
+                        kind="foreign",
+                        names=(group,),
+                        other=other,
                     )
                 yield from self._mimics(state, model, severity)
                 valued = {value.get("name") for value in values}

@@ -1,5 +1,8 @@
 """K963 controller-interface-missing."""
 
+from collections.abc import Iterable
+
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -84,8 +87,8 @@ class ControllerInterfaceMissing(RobotRule):
                     has_others = len(unprovided) < len(joints_of(source, controller_type)) or len(provided) > _FEW
                     severity = self.severity if has_others else "note"
                     found = self.at_span(span, message, severity=severity, joint=unprovided[0])
-                    at_joint = model.span(model.robot.joint_by_name[unprovided[0]].element.origin.position)
-                    yield Finding(**{**found.__dict__, "other": at_joint, "is_other_wrong": has_others})
+                    place = model.span(_place(unprovided[0], joints_of(source, controller_type), model))
+                    yield Finding(**{**found.__dict__, "other": place, "is_other_wrong": has_others})
                 if required is None or not missing or any("$" in name for name in provided[missing[0]]):
                     continue
                 if any(is_misspelt(name) for name in provided[missing[0]]):
@@ -94,18 +97,19 @@ class ControllerInterfaceMissing(RobotRule):
                 kinds = [(one.name, one.group.find("type"), one.group) for one in settings(source)]
                 others = ", ".join(f"`{name}`" for name in sorted(provided[missing[0]]))
                 call = None
+                parts = [(each.name, each.element) for one in model.robot.transmissions for each in one.joints]
+                inner = [part.find("hardwareInterface") for name, part in parts if name in missing]
+                written = {each.origin.position for each in inner if each is not None}
                 own = next((group for _, kind, group in kinds if kind is not None and kind.line == line), None)
                 is_consistent = (
                     len(missing) == 1 and own is not None and _has_gains_of_its_type(controller_type.name, own)
                 )
                 if controller_type.name.partition("/")[0] in _OF_WHEELS or is_consistent:
-                    parts = [(each.name, each.element) for one in model.robot.transmissions for each in one.joints]
                     right = [element for name, element in parts if name not in missing]
                     elements = [element for name, element in parts if name == missing[0]]
                     call = next((place for each in elements if (place := call_of(each, right)) is not None), None)
-                    if call is None and is_consistent:
-                        inner = elements[0].find("hardwareInterface") if elements else None
-                        call = inner.origin.position if inner is not None else None
+                    if call is None and is_consistent and len(written) == 1:
+                        call = next(iter(written))
                 yield self.at_span(
                     source.span(controller_type.start, controller_type.end),
                     f"`{controller_type.name}` requires the {required} of joint `{missing[0]}`, "
@@ -113,10 +117,27 @@ class ControllerInterfaceMissing(RobotRule):
                     joint=missing[0],
                     help="change the controller type or the <hardwareInterface>",
                     names=tuple(name for name, kind, _ in kinds if kind is not None and kind.line == line),
-                    other=None if call is None else model.span(call),
+                    other=model.span(call or next(iter(written))) if call or len(written) == 1 else None,
                     is_other_wrong=call is not None,
                     cause="" if call is None else f"joint {missing[0]}",
                 )
+
+
+def _place(name: str, joints: Iterable[str], model: Model) -> Position:
+    """Return the place for the transmission of a joint: after that of another joint if those are below all joints."""
+    from urdfkit.lint.facts.root_cause import call_of
+
+    joint, listed = model.robot.joint_by_name[name].element, list(joints)
+    before = listed[: listed.index(name)][::-1]
+    parts = {each.name: each.element for one in model.robot.transmissions for each in one.joints}
+    near = next((each for each in (*before, *listed) if each in parts and each in model.robot.joint_by_name), None)
+    if near is None:
+        return joint.origin.position
+    element = parts[near]
+    place = call_of(element, [part for each, part in parts.items() if each != near]) or element.origin.position
+    own, at = model.robot.joint_by_name[near].element.origin.position, joint.origin.position
+    is_below = own.file == at.file == place.file and max(own.line, at.line) < place.line
+    return place if is_below and not joint.origin.expansions[:-1] else at
 
 
 def _has_gains_of_its_type(kind: str, group: Node) -> bool:

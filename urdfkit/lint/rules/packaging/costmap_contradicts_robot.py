@@ -98,7 +98,7 @@ class CostmapContradictsRobot(RobotRule):
                 else:
                     continue
                 if value is not None and message:
-                    yield self.at_span(span_of(source, value), message)
+                    yield self.at_span(span_of(source, value), message, kind="size")
 
 
 def _footprint_message(polygon: list[tuple[float, float]], size: _Size) -> str:

@@ -41,14 +41,18 @@ class ParameterUnlikeOthers(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each entry, one for each line."""
+        from urdfkit.description.xml.reader import shown_path
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.facts.parameters.odd_entries import odd_entries
         from urdfkit.lint.facts.parameters.odd_values import odd_values
 
+        read = {shown_path(file) for file in model.expanded.files}
         for source in yamls(model):
             lines = set[int]()
             for place, message in (*odd_values(source, model), *odd_entries(source)):
                 if place.line not in lines:
                     lines.add(place.line)
                     kind = "numbered" if "unlike the other names" in message else ""
+                    if ", more than `" in message and source.file in read:
+                        kind = "bounds"
                     yield self.at_span(span_of(source, place), message, kind=kind)

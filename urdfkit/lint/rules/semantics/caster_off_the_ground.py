@@ -19,12 +19,15 @@ from urdfkit.description.urdf.robot import (
 )
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
-from urdfkit.lint.facts.gazebo.rolling_wheels import WheelPairs, is_lifted, pairs_of_wheels
+from urdfkit.lint.facts.gazebo.rolling_wheels import WheelPairs, is_lifted, pairs_of_wheels, rolling_wheels
 from urdfkit.lint.facts.root_cause import is_not_positive, root_cause
 from urdfkit.lint.model.placement import Frame
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _CASTER_NAME = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
+_STEERED_BY = re.compile(r"steering_?wheel|fly_?wheel|spare|water", re.IGNORECASE)
+"""Names of wheels that do not touch the ground."""
+
 _MAX_TILT = 0.06
 """Largest accepted tilt [rad]; robots that are tilted by design stay below it."""
 
@@ -46,10 +49,10 @@ class CasterOffTheGround(RobotRule):
 
     ## What it does
     Compares the lowest points of the drive wheels with the lowest points of the other links, with every joint at zero
-    and the root link level. A caster, recognised by its name or the name of its joint, is reported if it would tilt the
-    robot by more than 3.4° or if its radius is more than 1.5 times that of the wheels. Any link is reported if it
-    extends below the wheels by more than a twentieth of their radius. In robots without a Gazebo drive, each pair of a
-    left and a right wheel counts as drive wheels.
+    and the root link level. A caster, recognised by its name or the name of its joint, or another wheel is reported if
+    it would tilt the robot by more than 3.4°. A caster is also reported if its radius is more than 1.5 times that of
+    the drive wheels. Any link is reported if it extends below the drive wheels by more than a twentieth of their
+    radius. In robots without a Gazebo drive, each pair of a left and a right wheel counts as drive wheels.
 
     Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a joint raises or
     lowers, links that are not connected to the root link, and a floor below the robot are not checked.
@@ -114,6 +117,7 @@ class CasterOffTheGround(RobotRule):
         supports: list[tuple[float, float, Joint]] = []
         parent_joint = {joint.child: joint for joint in model.robot.joints}
         root = _root(parent_joint, drive.left[0].joint)
+        rolling = {wheel.joint.child for wheel in rolling_wheels(model) if not _STEERED_BY.search(wheel.joint.name)}
         for link in model.robot.links:
             frame = model.frames.get(link.name)
             found = _lowest(link, frame) if frame is not None and link.name not in driven else None
@@ -150,7 +154,9 @@ class CasterOffTheGround(RobotRule):
                     cause = root_cause(model, origin, "xyz", is_not_positive) if carried is not None else None
                     position, attribute = cause or (origin, "xyz")
                 yield self.at(model, position, message, attribute=attribute, link=link.name, help=help, names=wheels)
-            elif joint is not None and is_caster and len(drive.left) == 1 and gap < 2.0 * radius:
+            elif joint is None or len(drive.left) != 1:
+                continue
+            elif link.name in rolling or (is_caster and gap < 2.0 * radius):
                 supports.append((gap / max(distance, 1e-3), gap, joint))
         for tilt, gap, joint in sorted(supports, key=lambda support: support[0])[:1]:
             if tilt > _MAX_TILT:

@@ -1,5 +1,6 @@
 """S911 footprint-off-the-ground."""
 
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.lint.facts.gazebo.rolling_wheels import is_lifted, rolling_wheels
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -62,18 +63,33 @@ class FootprintOffTheGround(RobotRule):
         parents = {joint.child: joint for joint in model.robot.joints}
         children = [joint for joint in model.robot.joints if joint.parent == footprints[0]]
         joint = parents.get(footprints[0]) or (children[0] if len(children) == 1 else None)
-        if joint is None or joint.type != "fixed" or is_lifted(joint, parents, model):
+        if (
+            joint is None
+            or joint.type != "fixed"
+            or joint.parent not in model.frames
+            or is_lifted(joint, parents, model)
+        ):
             return
         ground = min(wheel.place[2] - wheel.radii[0] for wheel in wheels)
         radius = max(wheel.radii[0] for wheel in wheels)
         height = model.frames[footprints[0]].translation[2] - ground
         if abs(height) <= max(_PART * radius, _LEAST):
             return
-        place = joint.element.find("origin") or joint.element
+        place, attribute = joint.element.find("origin") or joint.element, "xyz"
+        links = [link.name for link in model.robot.links]
+        is_first = joint.child == footprints[0] and links.index(joint.child) < links.index(joint.parent)
+        # A description begins with its root link, so the parent and the child are swapped.
+        if is_first and _is_reversed(joint, height, radius):
+            place, attribute = joint.element.find("parent") or joint.element, "link"
         side = "above" if height > 0.0 else "below"
         message = f"link `{footprints[0]}` is {abs(height):.3g} m {side} the lowest point of the wheels"
         help = f"change the z of joint `{joint.name}` by {abs(height):.3g} m, or swap its parent and child"
         names = tuple(wheel.joint.child or "" for wheel in wheels)
         yield self.at(
-            model, place, message, attribute="xyz", link=footprints[0], joint=joint.name, help=help, names=names
+            model, place, message, attribute=attribute, link=footprints[0], joint=joint.name, help=help, names=names
         )
+
+
+def _is_reversed(joint: Joint, height: float, radius: float) -> bool:
+    """Return whether the footprint is on the ground after a swap of parent and child of its joint."""
+    return not any(joint.origin.rpy) and abs(height - 2.0 * joint.origin.xyz[2]) <= max(_PART * radius, _LEAST)

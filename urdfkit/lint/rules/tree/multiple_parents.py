@@ -32,6 +32,7 @@ class MultipleParents(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each further joint with the same child."""
+        tops = [root.name for root in model.robot.roots()]
         for name, joints in model.robot.parents_of.items():
             joints = [joint for joint in joints if not is_loop(joint)] or joints[:1]  # T204 reports the others.
             first = joints[0]
@@ -44,6 +45,8 @@ class MultipleParents(RobotRule):
                 roots = {_root(model, each.parent) for each in (joint, first)} - {None}
                 message = f"link `{name}` is the child of both joint `{joint.name}` and joint `{first.name}`{closes}"
                 names = tuple(sorted(str(root) for root in roots)) if len(roots) == 2 else ()
+                alone = [top for top in tops if top not in roots]  # It lost its joint to the link.
+                names = names or (tuple(alone) if len(alone) == 1 else ())
                 help = f"give `{joint.name}` a separate child link, or remove one of the joints"
                 yield self.at(
                     model, child, message, attribute="link", link=name, joint=joint.name, names=names, help=help
