@@ -45,15 +45,18 @@ except KeyboardInterrupt:
 
 
 @pytest.mark.parametrize("statement", ["import optional", "Finalized()"])
+@pytest.mark.parametrize("times", [1, 2])
 @pytest.mark.parametrize(("how", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_a_signal_is_not_lost_where_exceptions_are_ignored(statement, how, status, tmp_path):
+def test_a_signal_is_not_lost_where_exceptions_are_ignored(statement, how, status, times, tmp_path):
     raised = f"signal.raise_signal({int(how)})"
     (tmp_path / "optional.py").write_text(f"import signal\ntry: {raised}\nexcept BaseException: pass\n")
     code = f"""
 import signal, sys, time
 from urdfkit.app.termination import ended_by_signals
 class Finalized:
-    def __del__(self): {raised}
+    def __del__(self):
+        try: {raised}
+        finally: {raised if times == 2 else "pass"}
 try:
     with ended_by_signals():
         {statement}

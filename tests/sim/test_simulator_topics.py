@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -60,6 +61,7 @@ def test_a_topic_to_come_is_waited_for() -> None:
             f"has type {TWIST}, not {FLOAT}",
         ),
         (lambda s: s.publish(s.command_topics[0], TWIST, 3), UsageError, f"`3` is not a {TWIST}: write its fields"),
+        (lambda s: s.publish(s.command_topics[0], TWIST, Path("x")), UsageError, f"`x` is not a {TWIST}"),
         (lambda s: s.subscribe("/simpleton/odom", ODOMETRY, 3), UsageError, "the callback of topic `/simpleton/odom`"),
     ],
 )

@@ -62,7 +62,9 @@ def ended_by_signals() -> Iterator[None]:
         if isinstance(ignored.exc_value, Interrupted):
             _repeat(signal.SIGINT)
         elif isinstance(ignored.exc_value, _Ended):
-            _repeat(ended.pop())
+            number = ended[0]
+            ended.clear()  # also if the shell sent the signal twice
+            _repeat(number)
         else:
             hook(ignored)
 

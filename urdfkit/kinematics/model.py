@@ -323,12 +323,13 @@ class Kinematics:
         Raises:
             KinematicsError: `q` is no configuration of this robot.
         """
-        values = np.asarray(q)
-        if values.shape != (self.model.nq,) or values.dtype.kind not in "fiu":
-            raise KinematicsError(
-                f"q has shape {values.shape}; robot `{self.robot.name}` needs {self.model.nq} numbers"
-            )
-        placements = self.placements(values.astype(float, copy=False))
+        try:
+            values = np.asarray(q, dtype=float)
+        except (TypeError, ValueError):
+            values = np.zeros(0)
+        if values.shape != (self.model.nq,):
+            raise KinematicsError(f"q is {q!r}; robot `{self.robot.name}` needs {self.model.nq} numbers")
+        placements = self.placements(values)
         poses = np.empty((len(self._frames), 7))
         for row, frame in enumerate(self._frames.values()):
             poses[row] = pin.SE3ToXYZQUAT(placements[frame])

@@ -6,7 +6,6 @@ numpy is imported on first use, not with this module.
 from functools import cache
 from typing import Any
 
-from urdfkit.errors import UsageError
 from urdfkit.messages.types import full_type_name, message_type, type_layouts
 
 
@@ -17,7 +16,6 @@ def from_fields(type: str, fields: Any) -> Any:
         type: its type.
         fields: field → value, nested like the message; None for no fields. A message may also be the list of its
             fields, a time or duration a number of seconds; ROS 1's ``secs``, ``nsecs`` and ``seq`` are accepted too.
-            A message is returned as it is.
 
     Raises:
         UsageError: no such type or field, or a value of the wrong kind.
@@ -27,10 +25,8 @@ def from_fields(type: str, fields: Any) -> Any:
         >>> from_fields("geometry_msgs/msg/Twist", {"linear": {"x": 0.5}}).linear.x
         0.5
     """
-    from urdfkit.errors import did_you_mean
+    from urdfkit.errors import UsageError, did_you_mean
 
-    if hasattr(fields, "__dict__") or hasattr(fields, "__slots__"):  # a message, also one of rclpy
-        return fields
     full = full_type_name(type)
     kind = message_type(full)
     layout = dict(type_layouts()[full][1])
@@ -51,6 +47,20 @@ def from_fields(type: str, fields: Any) -> Any:
     return kind(**{name: _value(full, name, description, supplied.get(name)) for name, description in layout.items()})
 
 
+def as_message(type: str, value: Any) -> Any:
+    """Return a message as it is, or the message with these fields.
+
+    Args:
+        type: its type.
+        value: a message, also one of rclpy or rospy, or fields; see `from_fields`.
+
+    Raises:
+        UsageError: no such type or field, or a value of the wrong kind.
+    """
+    marks = ("__msgtype__", "get_fields_and_field_types", "_type")  # of rosbags, rclpy and rospy
+    return value if any(hasattr(value, mark) for mark in marks) else from_fields(type, value)
+
+
 _MOMENTS = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
 
 
@@ -61,6 +71,8 @@ def _moment(type: str, fields: Any) -> Any:
         UsageError: a field is set twice, is not a number, or is out of range.
     """
     import math
+
+    from urdfkit.errors import UsageError
 
     named = {"secs": "sec", "nsecs": "nanosec"}
     if isinstance(fields, dict):
@@ -99,6 +111,8 @@ def _value(type: str, name: str, description: Any, value: Any) -> Any:
         UsageError: a value of the wrong kind.
     """
     import numpy as np
+
+    from urdfkit.errors import UsageError
 
     node, details = int(description[0]), description[1]
     if node == 2:

@@ -15,7 +15,7 @@ from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import Array
-from urdfkit.messages import TWIST, TWIST_STAMPED, from_fields, header, message_type, require_message_types, twist
+from urdfkit.messages import TWIST, TWIST_STAMPED, as_message, header, message_type, require_message_types, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
@@ -384,7 +384,7 @@ class Simulator(Copyable):
         subscribed = [each.name for each in self.bus.topics if each.subscribers]
         if (name := absolute(topic)) not in subscribed:
             raise UnknownNameError(f"topic `{name}` has no subscribers{similar_topic(name, subscribed)}")
-        self.bus.publish(topic, type, from_fields(type, message))
+        self.bus.publish(topic, type, as_message(type, message))
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
