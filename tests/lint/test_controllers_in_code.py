@@ -135,3 +135,74 @@ def test_a_private_node_handle_does_not_read_global_topics(tmp_path, monkeypatch
     write(tmp_path, {"launch/watch.launch": launch})
     message = "no node publishes `joint_states` in the private namespace of this node; read it without `~`"
     assert found(tmp_path, target="gazebo-classic") == ([("src/watch.cpp", 7, message)] if expected else [])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ("[height, width]", "[height]", 20, "the length of `positions` is 1, but that of the joint names is 2"),
+        ("[height, width]", "[*height, width]", 0, ""),
+        ("[height, width]", "height", 0, ""),
+        ("[height, width]", "[lift, jaw]", 0, ""),
+        ("[height, width]", "[lift.height, other]", 0, ""),
+        (
+            "[height, width]",
+            "[jaw_width, lift]",
+            18,
+            "joint `lift_joint` gets `jaw_width`, which is named after `jaw_joint`; compare the order",
+        ),
+        ("[height, width]", "[height]\n        point.positions.append(width)", 0, ""),
+        (
+            '["lift_joint", "jaw_joint"]',
+            'self.names\n        self.names = ["lift_joint"]',
+            21,
+            "the length of `positions` is 2, but that of the joint names is 1",
+        ),
+    ],
+)
+def test_values_of_joints_in_messages(tmp_path, monkeypatch, old, new, line, message):
+    monkeypatch.chdir(tmp_path)
+    assert PYTHON.count(old) == 1
+    write(tmp_path, {**FILES, "cart/drive.py": PYTHON.replace(old, new)})
+    assert found(tmp_path, ("K976",)) == ([("cart/drive.py", line, message)] if line else [])
+
+
+SERVER = """import rclpy
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from cart_interfaces.action import Tip
+
+
+class Tipper(Node):
+    def __init__(self):
+        super().__init__("tipper")
+        self.server = ActionServer(self, Tip, "tip", self.execute)
+
+    def execute(self, goal_handle):
+        result = Tip.Result()
+        if goal_handle.request.angle > 1:
+            goal_handle.abort()
+            return result
+        goal_handle.succeed()
+        result.success = True
+        return result
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("        goal_handle.succeed()\n", "", True),
+        ("        goal_handle.succeed()\n", "        self.finish(goal_handle)\n", False),
+        ("        result.success = True\n        return result\n", "        raise ValueError\n", False),
+        ("self.execute)", "self.other)", False),
+    ],
+)
+def test_an_action_server_that_never_succeeds(tmp_path, monkeypatch, old, new, expected):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, {**FILES, "cart/tipper.py": SERVER})
+    assert found(tmp_path) == []
+    assert SERVER.count(old) == 1
+    write(tmp_path, {"cart/tipper.py": SERVER.replace(old, new)})
+    message = "`execute` does not call succeed() of its goal, so that the action ends as aborted"
+    assert found(tmp_path) == ([("cart/tipper.py", 17, message)] if expected else [])

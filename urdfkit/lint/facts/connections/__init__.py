@@ -1,4 +1,5 @@
 """Connections between the nodes that the launch files of a workspace start together, in their namespaces.
 
-Input: the nodes of launch files with their evaluated namespaces; output: nodes that do not reach each other.
+Input: the nodes of launch files with their evaluated namespaces, and the code of nodes; output: nodes that do not reach
+each other, and messages and answers in code that other nodes reject.
 """

@@ -149,7 +149,7 @@ def _in_python(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
     if tree is None:
         return
     reader = launch_reader(tree)
-    kept = _attributes(tree)
+    kept = attributes(tree)
     defaults = _defaults(tree, reader)
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) in _CALLS):
         kind_word, topic_word, publishes = _CALLS[name_of(call.func)]
@@ -189,7 +189,7 @@ def _in_python(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
         )
 
 
-def _attributes(tree: ast.Module) -> dict[str, ast.expr]:
+def attributes(tree: ast.Module) -> dict[str, ast.expr]:
     """Return attribute of ``self`` → its value, of the attributes that are assigned once."""
     found: dict[str, list[ast.expr]] = {}
     for node in ast.walk(tree):

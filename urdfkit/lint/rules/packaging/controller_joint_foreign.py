@@ -11,12 +11,15 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ControllerJointForeign(RobotRule):
-    """A controller has a joint of the other side, or gains or tolerances for a joint that it does not control.
+    """A controller or a message has a joint of the other side, or values of a joint that it does not control.
 
     ## What it does
     Compares the groups in ``constraints`` and ``gains`` of trajectory controllers with their ``joints``. Names that
     resemble a joint of the controller are reported as misspelt by K962. Also reports a joint of the other side of the
     robot in a list of joints, if the name of the controller or of the list states the side.
+
+    In the Python code of the workspace, compares the values in ``JointTrajectory`` and ``JointState`` messages with the
+    names of the joints in them: their number, and the order of variables that are named after the joints.
 
     ## Why is this bad?
     The values have no effect, and the intended joint has the default gains or tolerances.
@@ -45,10 +48,13 @@ class ControllerJointForeign(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each group of another joint."""
+        from urdfkit.lint.facts.connections.messages_in_code import unequal_joints
         from urdfkit.lint.facts.control.controller_settings import misspelt_names
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.fix_builders import meant
 
+        for source, place, message in dict.fromkeys(unequal_joints(model)):
+            yield self.at_span(source.span(*place), message)
         for source in yamls(model):
             for one in settings(source) if re.search(_SIDES, source.text) else ():
                 for item, near, message in _of_other_side(one, model):

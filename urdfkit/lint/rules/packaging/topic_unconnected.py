@@ -24,7 +24,8 @@ class TopicUnconnected(RobotRule):
     In the code of the nodes of the workspace, also reports a publisher or subscriber on a topic that no other node has,
     if one other node has messages of this type on a topic without a counterpart. The topics that parameters, YAML files
     and remappings set count. Reports topics and actions below the name of a controller that the controller does not
-    have, and subscribers with the private name of a topic such as ``joint_states``.
+    have, subscribers with the private name of a topic such as ``joint_states``, and action servers in Python that never
+    report success to their clients.
 
     ## Why is this bad?
     The robot does not move, and no node reports an error.
@@ -46,6 +47,7 @@ class TopicUnconnected(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
+        from urdfkit.lint.facts.connections.messages_in_code import unfinished_goals
         from urdfkit.lint.facts.connections.namespaces import separated_nodes
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.controller_topics import private_readers, wrong_inputs
@@ -84,5 +86,7 @@ class TopicUnconnected(RobotRule):
             yield self.at_span(end.source.span(end.start, end.end), message, names=(end.topic,))
         for source, name, message in wrong_inputs(model):
             yield self.at_span(source.span(name.start, name.end), message, names=(name.name,))
+        for source, place, message in unfinished_goals(model):
+            yield self.at_span(source.span(*place), message)
         for source, value, near, message in unfed_mux_topics(model):
             yield self.at_span(span_of(source, value), message, names=(near,))
