@@ -167,6 +167,23 @@ def test_values_of_joints_in_messages(tmp_path, monkeypatch, old, new, line, mes
     assert found(tmp_path, ("K976",)) == ([("cart/drive.py", line, message)] if line else [])
 
 
+@pytest.mark.parametrize(
+    ("publisher", "data", "message"),
+    [
+        ("brush", "[width]", ""),
+        ("brush", "[height, width]", "the length of `data` is 2; controller `brush_controller` needs 1"),
+        ("brush", "[*height, width]", ""),
+        ("brush", "values", ""),
+        ("lift", "[height, width]", ""),
+    ],
+)
+def test_values_of_commands_of_a_group(tmp_path, monkeypatch, publisher, data, message):
+    monkeypatch.chdir(tmp_path)
+    code = f"{PYTHON}        self.{publisher}.publish(Float64MultiArray(data={data}))\n"
+    write(tmp_path, {**FILES, "cart/drive.py": code})
+    assert found(tmp_path, ("K976",)) == ([("cart/drive.py", 23, message)] if message else [])
+
+
 SERVER = """import rclpy
 from rclpy.action import ActionServer
 from rclpy.node import Node

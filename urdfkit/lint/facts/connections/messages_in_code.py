@@ -14,7 +14,9 @@ from urdfkit.description.launch.python_constants import launch_reader, name_of
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.control.yaml_tree import yamls
 from urdfkit.lint.facts.topics.own_ends import attributes
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import node_texts, python_tree
@@ -31,6 +33,7 @@ _VALUES = {
 """Message → its fields with one value for each joint."""
 
 _NO_NAMES = frozenset(("joint", "position", "target", "goal", "value", "self", "command", "desired"))
+_GROUP = r"/JointGroup\w+Controller$|/ForwardCommandController$"
 _GROWING = ("append", "extend", "insert")
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
@@ -57,6 +60,36 @@ def unequal_joints(model: Model) -> Defects:
                 values = [each for each in fields if each[0] == values_kind and each[1] in _VALUES[values_kind]]
                 if len(names) == 1:
                     yield from _compared(source, names[0], values)
+
+
+def unequal_commands(model: Model) -> Defects:
+    """Yield the lists in ``Float64MultiArray`` messages for a controller that differ in number from its joints."""
+    counts: dict[str, set[int]] = {}
+    for each in yamls(model):
+        for one in settings(each):
+            joints = one.group.find("joints")
+            is_group = re.search(_GROUP, one.kind) is not None and joints is not None and bool(joints.items)
+            counts.setdefault(one.name, set()).add(len(joints.items) if joints is not None and is_group else 0)
+    for source, tree in _modules(model, r"\bFloat64MultiArray\b") if counts else ():
+        publishers: dict[str, str] = {}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call):
+                topics = [each.value for each in node.value.args if isinstance(each, ast.Constant)]
+                found = [re.search(r"(\w+)/commands?$", topic) for topic in topics if isinstance(topic, str)]
+                if name_of(node.value.func) in ("create_publisher", "Publisher") and found and found[0] is not None:
+                    publishers[name_of(node.targets[0])] = found[0][1]
+        for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call) and each.args and publishers):
+            sender = name_of(call.func.value) if isinstance(call.func, ast.Attribute) else ""
+            controller, message = publishers.get(sender, ""), call.args[0]
+            if name_of(call.func) != "publish" or not isinstance(message, ast.Call):
+                continue
+            data = next((word.value for word in message.keywords if word.arg == "data"), None)
+            if not isinstance(data, ast.List) or any(isinstance(each, ast.Starred) for each in data.elts):
+                continue
+            number = counts.get(controller, {0})
+            if 0 not in number and len(data.elts) not in number:
+                text = f"the length of `data` is {len(data.elts)}; controller `{controller}` needs {min(number)}"
+                yield source, place(source, data), text
 
 
 def _fields(
@@ -119,9 +152,9 @@ def _swapped(joints: list[str], values: list[ast.expr]) -> tuple[ast.expr, str, 
     parts = [{*joint.lower().split("_")} - _NO_NAMES for joint in joints]
     words = [_words(value) for value in values]
     for at, own in enumerate(words):
-        known = {word for word in own if any(word in each for each in parts)}
-        others = [i for i in range(len(joints)) if known & parts[i] and not known & words[i]]
-        if known and not known & parts[at] and others:
+        shared = {word for word in own if any(word in each for each in parts)}
+        others = [i for i in range(len(joints)) if shared & parts[i] and not shared & words[i]]
+        if shared and not shared & parts[at] and others:
             return values[at], joints[at], joints[others[0]]
     return None
 

@@ -19,7 +19,8 @@ class ControllerJointForeign(RobotRule):
     robot in a list of joints, if the name of the controller or of the list states the side.
 
     In the Python code of the workspace, compares the values in ``JointTrajectory`` and ``JointState`` messages with the
-    names of the joints in them: their number, and the order of variables that are named after the joints.
+    names of the joints in them: their number, and the order of variables that are named after the joints. Also compares
+    the number of values in ``Float64MultiArray`` messages with the joints of the controller that reads them.
 
     ## Why is this bad?
     The values have no effect, and the intended joint has the default gains or tolerances.
@@ -48,12 +49,12 @@ class ControllerJointForeign(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each group of another joint."""
-        from urdfkit.lint.facts.connections.messages_in_code import unequal_joints
+        from urdfkit.lint.facts.connections.messages_in_code import unequal_commands, unequal_joints
         from urdfkit.lint.facts.control.controller_settings import misspelt_names
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
         from urdfkit.lint.fix_builders import meant
 
-        for source, place, message in dict.fromkeys(unequal_joints(model)):
+        for source, place, message in dict.fromkeys((*unequal_joints(model), *unequal_commands(model))):
             yield self.at_span(source.span(*place), message)
         for source in yamls(model):
             for one in settings(source) if re.search(_SIDES, source.text) else ():
