@@ -225,6 +225,17 @@ def test_a_defect_of_cmake_is_reported(cmake, old, new, expected):
         ("urdf\n  DESTINATION share/${PROJECT_NAME}", "urdf ${WHERE}"),
         ("install(DIRECTORY launch urdf", "install(DIRECTORY launch DESTINATION share)\ninstall(DIRECTORY launch urdf"),
         ("install(PROGRAMS scripts/wait.py", "install(DIRECTORY scripts/"),
+        (
+            "project(cart)",
+            "project(cart)\n#[[ install(FILES old.yaml)\ninstall(DIRECTRY a DESTINATION share/${PROJECT}) ]]",
+        ),
+        (
+            "find_package(ament_cmake R",
+            "foreach(dep IN LISTS ALL)\nfind_package(${dep})\nendforeach()\n# find_package(R",
+        ),
+        ("scripts/wait.py", "scripts/wait.py RENAME wait"),
+        ("install(PROGRAMS", "install(DIRECTORY urdf/ TYPE DATA)\ninstall(PROGRAMS"),
+        ("wait.py DESTINATION", "wait.py PERMISSIONS OWNER_READ OWNER_EXECUTE DESTINATION"),
         ("share/${PROJECT_NAME})\n", "${CATKIN_DEVEL_PREFIX}/share)\n"),
     ],
 )
@@ -339,6 +350,10 @@ try:
 except ImportError:
     import tf2_ros
 import some_module
+TEXT = '''
+import nav_msgs
+from message_filters import Subscriber
+'''
 """
 
 
@@ -370,6 +385,12 @@ def test_packages_that_python_code_imports_are_dependencies(cmake, needed, expec
             ["missing dependency on `rc"],
         ),
         ("find_package(launch_ros REQUIRED)\nfind_package(Eigen3 REQUIRED)\nfind_package(octomap REQUIRED)", []),
+        ("find_package(rclcpp QUIET)", []),
+        ("if(WITH_NODE)\n  find_package(rclcpp REQUIRED)\nendif()", []),
+        ("if(DEFINED ENV{ROS1})\n  find_package(catkin REQUIRED COMPONENTS roscpp)\nendif()", []),
+        ("find_package(catkin OPTIONAL_COMPONENTS roscpp)", []),
+        ("find_package(catkin COMPONENTS roscpp OPTIONAL_COMPONENTS rospy)", ["missing dependency on `roscpp`"]),
+        ("if(A)\nendif()\nfind_package(rclcpp QUIET REQUIRED)", ["missing dependency on `rclcpp`"]),
     ],
 )
 def test_packages_that_cmake_finds_are_dependencies(cmake, call, expected):
@@ -398,6 +419,24 @@ install(TARGETS drive DESTINATION lib/${PROJECT_NAME})
         ("src/drive.cpp", "source/drive.cpp", []),
         ("add_executable", "include(targets.cmake)\nadd_executable", []),
         ("install(TARGETS drive", "add_python_module(extra x.cpp)\ninstall(TARGETS drive extra", []),
+        ("install", "ament_add_gtest(core_test test.cpp)\ntarget_link_libraries(core_test stdc++)\ninstall", []),
+        ("install", "ament_add_gmock(core_test test.cpp)\ntarget_link_libraries(core_test stdc++)\ninstall", []),
+        ("install", "catkin_add_gtest(${PROJECT_NAME}-test a.cpp)\ntarget_link_libraries(cart-test m)\ninstall", []),
+        ("install", "add_rostest_gtest(core_test a.test a.cpp)\ntarget_link_libraries(core_test m)\ninstall", []),
+        ("install", "if(TARGET core)\n  target_link_libraries(core m)\nendif()\ninstall", []),
+        ("install", "find_package(fmt REQUIRED)\ntarget_compile_definitions(fmt PUBLIC A)\ninstall", []),
+        ("install", "FetchContent_MakeAvailable(json)\ntarget_compile_options(json PUBLIC -w)\ninstall", []),
+        ("install", "pkg_check_modules(yaml yaml-cpp)\ntarget_compile_options(yaml PUBLIC -w)\ninstall", []),
+        ("install", "add_subdirectory(core)\ntarget_compile_options(core PUBLIC -w)\ninstall", []),
+        ("src/drive.cpp)", "src/drive.cpp src/made.cpp)\nexecute_process(COMMAND make_it)", []),
+        ("src/drive.cpp)", "src/drive.cpp src/made.cpp)\nfile(GENERATE OUTPUT src/made.cpp CONTENT x)", []),
+        ("src/drive.cpp)", "src/drive.cpp src/made.cpp)\nfile(WRITE src/made.cpp x)", []),
+        ("src/drive.cpp)", "src/drive.cpp src/made.cpp)\ninclude(cmake/made.cmake)", []),
+        (
+            "src/drive.cpp)",
+            "src/drive.cpp src/made.cpp)\ninclude(GNUInstallDirs)",
+            ["4: `src/made.cpp` does not exist in this package"],
+        ),
     ],
 )
 def test_targets_and_their_sources(cmake, old, new, expected):

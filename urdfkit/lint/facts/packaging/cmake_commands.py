@@ -32,7 +32,7 @@ def commands(source: Source) -> list[CMakeCommand]:
 
     Loops over constant words are written out, and variables that are set once to constant words are replaced.
     """
-    text = re.sub(r"#[^\n]*", lambda at: " " * len(at[0]), source.text)
+    text = without_comments(source.text)
     found = []
     for at in re.finditer(r"([A-Za-z_]\w*)\s*\(([^()]*)\)", text):
         words = tuple(
@@ -42,6 +42,14 @@ def commands(source: Source) -> list[CMakeCommand]:
         found.append(CMakeCommand(at[1].lower(), at.start(1), words))
     return _written_out(found, _lists(found)) if "${" in text else found
 
+
+def without_comments(text: str) -> str:
+    """Return the text of a CMakeLists.txt with blanks in place of its comments."""
+    return re.sub(_COMMENTS, lambda at: " " * len(at[0]) if at[0].startswith("#") else at[0], text)
+
+
+_COMMENTS = r"\"(?:\\(?s:.)|[^\"\\])*\"|#\[(=*)\[(?s:.*?)(?:\]\1\]|\Z)|#[^\n]*"
+"""Matches comments, and texts in quotes, which can contain a number sign."""
 
 _Words = tuple[tuple[str, int], ...]
 _MOST_WORDS = 50
@@ -125,9 +133,13 @@ def misspelt_word(command: CMakeCommand) -> tuple[str, int, str] | None:
 
 
 _MODES = ("CODE", "DIRECTORY", "EXPORT", "FILES", "IMPORTED_RUNTIME_ARTIFACTS", "PROGRAMS", "SCRIPT", "TARGETS")
-_OTHERS = ("COMPONENTS", "CONFIGURATIONS", "OPTION", "PERMISSIONS", "DIRECTORY_PERMISSIONS", "FILE_PERMISSIONS")
+_OTHERS = ("COMPONENTS", "OPTION")
 """First words of ``install()``, and words that resemble an option."""
 
 OPTIONS = frozenset(
-    ("DESTINATION", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "REGEX", "OPTIONAL", "COMPONENT")
+    (
+        *("DESTINATION", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "REGEX", "OPTIONAL", "COMPONENT"),
+        *("CONFIGURATIONS", "PERMISSIONS", "DIRECTORY_PERMISSIONS", "FILE_PERMISSIONS", "RENAME", "TYPE"),
+        *("MESSAGE_NEVER", "EXCLUDE_FROM_ALL"),
+    )
 )

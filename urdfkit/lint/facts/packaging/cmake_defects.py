@@ -11,7 +11,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
-from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, misspelt_word
+from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, misspelt_word, without_comments
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.record import record
@@ -109,13 +109,14 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
     """Yield misspelt variables, and destinations of variables that neither CMake nor catkin defines."""
     from urdfkit.lint.model.masked_names import is_typo
 
-    is_whole = not any(command.name == "include" for command in every)
-    assigned = re.findall(r"(?i)\b(?:set|foreach|option|list\s*\(\s*\w+|file\s*\(\s*\w+)\s*\(?\s*(\w+)", source.text)
+    text = without_comments(source.text)
+    assigned = re.findall(r"(?i)\b(?:set|foreach|option|list\s*\(\s*\w+|file\s*\(\s*\w+)\s*\(?\s*(\w+)", text)
     packages = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
+    is_whole = not any(command.name == "include" for command in every) and not any("$" in name for name in packages)
     defined = {*_VARIABLES, *_CATKIN, *assigned}
-    for use in re.finditer(r"\$\{(\w+)\}", source.text):
+    for use in re.finditer(r"\$\{(\w+)\}", text):
         name = use[1]
-        is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", source.text[: use.start()]) is not None
+        is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", text[: use.start()]) is not None
         if name in _CATKIN and is_whole and is_destination and "catkin" not in packages and name not in assigned:
             yield BuildDefect(source, use.start(1), name, f"variable `{name}` is empty without find_package(catkin)")
         if name in defined or re.fullmatch(_PROJECT, name):
@@ -137,13 +138,19 @@ _OF_TARGET = (
 )
 """Commands whose first argument is a target of the package."""
 
-_MAKING = r"include|add_subdirectory|function|macro|foreach|\w*add_module|\w*_add_\w+|generate_\w+|rosidl_\w+|add_\w+"
+_MAKING = (
+    r"include|add_subdirectory|function|macro|foreach|\w*add_module|\w*_add_\w+|generate_\w+|rosidl_\w+|add_\w+"
+    r"|fetchcontent_\w+|externalproject_\w+|cpm\w+|pkg_\w+"
+)
 """Matches commands that can define further targets."""
+
+_TEST = r"\w*add_(?:rostest_)?(?:gtest|gmock|google_benchmark|executable_with_gtest)\w*"
+"""Matches commands that define a target of a test (ament_cmake_gtest, catkin, rostest)."""
 
 
 def _targets(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     """Yield the targets that a command uses and none defines; where several do, the definition with another name."""
-    from urdfkit.lint.fix_builders import nearest
+    from urdfkit.lint.facts.ros_packages import names as ros_packages
 
     project = next((each.words[0][0] for each in every if each.name == "project" and each.words), "")
 
@@ -157,6 +164,11 @@ def _targets(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]
     )
     if not defined or is_open or any("$" in name for name in defined):
         return
+    conditions = [word for each in every if each.name in ("if", "elseif") for word in pairwise(each.words)]
+    accepted = {*defined, *(named(word) for (key, _), (word, _) in conditions if key == "TARGET")}
+    accepted |= {named(each.words[0][0]) for each in every if each.words and re.fullmatch(_TEST, each.name)}
+    found = {each.words[0][0] for each in every if each.name == "find_package" and each.words}
+    has_others = not found <= {*ros_packages(), "catkin"}  # packages of the system can define targets of any name
     uses: list[tuple[str, int]] = []
     for each in every:
         words = each.words[:1] if each.name in _OF_TARGET else ()
@@ -164,7 +176,13 @@ def _targets(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]
             end = next((at for at, (word, _) in enumerate(each.words) if at and word.isupper()), len(each.words))
             words = each.words[1:end]
         uses += ((named(word), start) for word, start in words)
-    missing = [(name, start) for name, start in uses if name not in defined and not re.search(r"[$:]", name)]
+    missing = [
+        (name, start)
+        for name, start in uses
+        if name not in accepted
+        and not re.search(r"[$:]", name)
+        and not (has_others and nearest(name, sorted(defined), cutoff=0.6) is None)
+    ]
     unused = [name for name in defined if name not in {use for use, _ in uses}]
     names = {name for name, _ in missing}
     if len(missing) > 1 and len(names) == len(unused) == 1:
@@ -187,7 +205,7 @@ def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
         yield BuildDefect(source, every[0].start, every[0].name, "CMakeLists.txt does not call project()")
     found = [command.words[0] for command in every if command.name == "find_package" and command.words]
     packages = [name for name, _ in found]
-    for command in every:
+    for command in every if not any("$" in name for name in packages) else ():
         tools = _TOOLS.get(command.name, ())
         if not tools or any(name in tools for name in packages):
             continue

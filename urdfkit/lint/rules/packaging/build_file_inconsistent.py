@@ -29,6 +29,12 @@ _TESTED = {
     "ament_add_pytest_test": 1,
 }
 """Command of a test → which of its arguments is a file or folder of the package."""
+_GENERATING = (
+    r"(?i)add_custom_|configure_file|\bwrap_|execute_process|file\s*\(\s*(?:APPEND|CONFIGURE|COPY|DOWNLOAD|GENERATE|WRITE)"
+    r"|\binclude\s*\(\s*(?!GNUInstallDirs|CTest\b|Check\w|CMake\w)"
+)
+"""Matches commands that can write source files."""
+
 _FIND = r"\$\(find\s+([\w-]+)\)/([\w-]+/[^\s\"'<>$(){}]+)"
 _DESTINATIONS = ("share", "lib", "bin", "include", "etc", "libexec", "python", "launch", "config", "meshes")
 
@@ -163,7 +169,7 @@ class BuildFileInconsistent(RobotRule):
 
     def _sources(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each source file that does not exist in a folder with other files in C++."""
-        is_generated = re.search(r"add_custom_command|configure_file|\bwrap_", source.text) is not None
+        is_generated = re.search(_GENERATING, source.text) is not None
         for word, start in command.words[1:] if not is_generated else ():
             folder = (files.folder / word).parent
             if re.fullmatch(r"[\w./-]+\.(?:c|cc|cpp|cxx)", word) and any(folder.glob("*.c*")):
