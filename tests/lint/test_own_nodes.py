@@ -128,6 +128,7 @@ Follower::Follower() : Node("follower") {
   stop_ = create_subscription<std_msgs::msg::Bool>("guard/stopped", 1, on_stop);
 }
 """
+OF_HEAT = GUARD.replace("~/stopped", "cpu_temperature").replace("Bool", "Float32")
 SECTION = "guard:\n  ros__parameters:\n    input: cmd_raw\n"
 BOTH = '<node pkg="cart" exec="follower"/>\n'
 
@@ -153,6 +154,15 @@ def in_code(folder, guard=GUARD, follower=FOLLOWER, section="", name="follower.p
         {"guard": GUARD.replace('"cmd_raw"', '"cmd_in"'), "section": SECTION},
         {"guard": GUARD.replace("(Twist, topic", "(Twist, other()")},
         {"follower": FOLLOWER.replace("Bool, ", "Int8, ").replace("guard/stopped", "count")},
+        {"follower": FOLLOWER.replace("guard/stopped", "bumper_pressed")},
+        {"follower": FOLLOWER.replace("guard/stopped", "bumper_pressed").replace("Bool", "Float32"), "guard": OF_HEAT},
+        {
+            "follower": FOLLOWER.replace(
+                "TOPIC, 1)", "'plan', 1)\n        self.b = self.create_publisher(Twist, 'wish', 1)"
+            )
+        },
+        {"follower": FOLLOWER.replace("TOPIC, 1", " + ".join(["'a'"] * 900) + ", 1")},
+        {"follower": FOLLOWER.replace("self.out = ", f"a{'.a' * 900}.Publisher('b', Bool)\n        self.out = ")},
     ],
 )
 def test_own_nodes_that_exchange_messages_are_silent(tmp_path, changes):

@@ -100,14 +100,14 @@ def own_ends(model: Model) -> list[End] | None:
             if re.search(CLIENTS, text) and not {"test", "tests"} & {*path.relative_to(folder).parts}:
                 source = Source(shown_path(path), text)
                 ends = _in_python(path, source) if path.suffix == ".py" else _in_cpp(path, source)
-                found += (each for end in ends for each in _placed(end, own, model))
+                name = re.search(_NAMED, text)
+                found += (each for end in ends for each in _placed(end, name, own, model))
     return found
 
 
-def _placed(end: tuple[End, str, str], own: list[LaunchedNode], model: Model) -> Iterator[End]:
+def _placed(end: tuple[End, str], name: re.Match[str] | None, own: list[LaunchedNode], model: Model) -> Iterator[End]:
     """Yield an end for each topic that it has in the launched nodes of its package."""
-    written, parameter, text = end
-    name = re.search(_NAMED, text)
+    written, parameter = end
     names = [node.name.name for node in own if node.name is not None]
     if name is not None and (name[1] in names or len(names) < len(own) or not own):
         names = [name[1]]
@@ -143,8 +143,8 @@ def _settings(parameter: str, names: list[str], model: Model) -> Iterator[tuple[
                 yield value.text, source, start, start + len(value.text)
 
 
-def _in_python(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
-    """Yield each end with its topic by default, the parameter that sets it, and the text of its file."""
+def _in_python(path: Path, source: Source) -> Iterator[tuple[End, str]]:
+    """Yield each end with its topic by default, and the parameter that sets it."""
     tree = python_tree(source.text)
     if tree is None:
         return
@@ -154,12 +154,8 @@ def _in_python(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) in _CALLS):
         kind_word, topic_word, publishes = _CALLS[name_of(call.func)]
         of_node = kind_word == "msg_type"
-        if not of_node and ast.unparse(call.func) not in (
-            "rospy.Publisher",
-            "rospy.Subscriber",
-            "Publisher",
-            "Subscriber",
-        ):
+        owner = getattr(call.func, "value", None)
+        if not of_node and owner is not None and getattr(owner, "id", "") != "rospy":
             continue
         words = {word.arg: word.value for word in call.keywords}
         first, second = [*call.args, None, None][:2]
@@ -185,7 +181,6 @@ def _in_python(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
                 False,
             ),
             parameter,
-            source.text,
         )
 
 
@@ -228,7 +223,7 @@ def _value(node: ast.expr | None, reader: LaunchReader, kept: dict[str, ast.expr
     return node, ""
 
 
-def _in_cpp(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
+def _in_cpp(path: Path, source: Source) -> Iterator[tuple[End, str]]:
     private = {name for at in re.findall(_PRIVATE, source.text) for name in at if name}
     for at in re.finditer(_IN_CPP, source.text):
         kind = (at[2] or "").strip().rpartition("::")[2]
@@ -240,4 +235,4 @@ def _in_cpp(path: Path, source: Source) -> Iterator[tuple[End, str, str]]:
         handle = re.search(r"(\w+)\s*(?:\.|->)\s*\Z", source.text[max(at.start() - 60, 0) : at.start()])
         if topic and handle is not None and handle[1] in private and not at[3].startswith(("/", "~")):
             topic = f"~/{topic}"
-        yield End(path, kind, topic, source, start, end, publishes, False), "", source.text
+        yield End(path, kind, topic, source, start, end, publishes, False), ""

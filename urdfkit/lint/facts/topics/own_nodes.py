@@ -96,7 +96,7 @@ def _in_python(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | No
         if name_of(call.func).startswith("create_"):
             values = [*call.args, words.get("msg_type"), words.get("topic")][:2]
             kind, topic = (words.get("msg_type", values[0]), words.get("topic", values[1]))
-        elif ast.unparse(call.func).removeprefix("rospy.") in functions:
+        elif isinstance(call.func, ast.Name) or getattr(getattr(call.func, "value", None), "id", "") == "rospy":
             values = [*call.args, None, None][:2]
             topic, kind = words.get("name", values[0]), words.get("data_class", values[1])
         else:

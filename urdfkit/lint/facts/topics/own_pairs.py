@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.defect_message import Suggestion
@@ -17,6 +18,9 @@ from urdfkit.lint.model.model import Model
 _EVERYWHERE = frozenset(
     ("clock", "diagnostics", "joint_states", "parameter_events", "robot_description", "rosout", "tf", "tf_static")
 )
+_COMMON = r"(?:Bool|Byte|Char|ColorRGBA|Empty|Header|String|(?:UInt|Int|Float)\d+)(?:MultiArray)?"
+"""Matches the types of std_msgs, which topics of all kinds have."""
+
 _COMMANDS = ("Twist", "TwistStamped")
 
 
@@ -48,15 +52,26 @@ def unpaired(model: Model) -> Iterator[tuple[End, str]]:
             return False
         return not in_namespaces or not any(last(other) == last(end.topic) for other in others)
 
+    sides = Counter((kind, side) for kind, side, _ in {(end.type, end.publishes, end.topic) for end in ends})
+    frequent = {kind for (kind, _), count in sides.items() if count > 1}
+
+    def fits(end: End, other: End) -> bool:
+        """Return whether two ends belong together; those of common types must have similar names."""
+        if not _fit(end, other):
+            return False
+        is_common = end.type in frequent or re.fullmatch(_COMMON, end.type) is not None
+        return not is_common or nearest(end.topic, [other.topic], cutoff=0.6) is not None
+
     lone = [end for end in ends if is_lone(end) and end.type not in is_open[not end.publishes]]
     unnamed = [end for end in lone if words.places_of(end.topic) <= sum(other.topic == end.topic for other in ends)]
     seen = set[str]()
     for end in unnamed:
-        partners = [each for each in lone if _fit(end, each)]
-        found = {each.topic for each in partners}
+        found = {each.topic for each in lone if _fit(end, each)}
+        partners = [each for each in lone if fits(end, each)]
         if end.topic in seen:
             continue
-        if len(found) == 1 and len({each.topic for each in unnamed if _fit(partners[0], each)}) == 1:
+        is_only = len({each.topic for each in partners}) == 1
+        if is_only and len({each.topic for each in unnamed if fits(partners[0], each)}) == 1:
             is_other = any(each is partners[0] for each in unnamed)
             wrong, right = _wrong(end, partners[0], words) if is_other else (end, partners[0])
             seen |= {end.topic, partners[0].topic}

@@ -121,7 +121,7 @@ def _in_python(text: str) -> Iterator[str | None]:
             yield None
         elif isinstance(node, ast.Call) and name_of(node.func) in _PLACES:
             at, word = _PLACES[name_of(node.func)]
-            if "message_filters" in ast.unparse(node.func):
+            if any(getattr(each, "id", "") == "message_filters" for each in ast.walk(node.func)):
                 at = max(len(node.args) - 1, 0) if len(node.args) > 2 else at
             words = {each.arg: each.value for each in node.keywords}
             value = words.get(word) or (node.args[at] if at < len(node.args) else None)
