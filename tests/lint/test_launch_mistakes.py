@@ -943,7 +943,15 @@ def test_the_clock_and_the_handlers_of_a_conditional_node(tmp_path, changes, exp
 
 
 @pytest.mark.parametrize(
-    ("condition", "expected"), [("", [15]), ('condition=IfCondition(LaunchConfiguration("slam"))', [])]
+    ("condition", "expected"),
+    [
+        ("", [15]),
+        ('condition=IfCondition(LaunchConfiguration("slam"))', []),
+        ('ros_arguments=["-p", "use_sim_time:=true"]', []),
+        ('arguments=["--ros-args", "-p", "use_sim_time:=true"]', []),
+        ('arguments=["--ros-args", "-p", ["slam:use_sim_time:=", LaunchConfiguration("slam")]]', []),
+        ('arguments=["--ros-args", "-r", "use_sim_time:=true"]', [15]),
+    ],
 )
 def test_a_node_without_the_clock_next_to_gazebo(tmp_path, condition, expected):
     cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_sim", "slam_toolbox")

@@ -127,7 +127,9 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str], place
         tuple(file for file, _ in files if file[0]),
         tuple(remappings),
         (program.start, program.end) if program is not None else None,
-        frozenset(inner) if all(file[0] for file, _ in files) else None,
+        frozenset((*inner, *_passed(" ".join(at[key].name for key in ("args", "ros_args") if key in at))))
+        if all(file[0] for file, _ in files)
+        else None,
         False,
         place.namespace,
         place.spaced_by,
@@ -237,8 +239,22 @@ def _inline(
             found.add("robot_description")
         elif file is None:
             return None
+    passed = [word.value for word in call.keywords if word.arg in ("arguments", "ros_arguments")]
+    texts = [_constants(resolved(item, binding)) for each in passed for item in reader.items(resolved(each, binding))]
+    found |= _passed(" ".join(texts))
     is_open = None in found or None in words or (not items and "parameters" in words)
     return None if is_open else frozenset(name for name in found if name is not None)
+
+
+def _passed(arguments: str) -> set[str]:
+    """Return the names of the parameters that arguments of the command line set."""
+    return set(re.findall(r"(?<!\S)(?:-p|--param)\s+(?:[^\s:]+:)?([\w.]+):=", arguments))
+
+
+def _constants(node: ast.expr | None) -> str:
+    """Return the constant texts of an expression, joined."""
+    parts = ast.walk(node) if node is not None else ()
+    return "".join(each.value for each in parts if isinstance(each, ast.Constant) and isinstance(each.value, str))
 
 
 def _defaults(tree: ast.Module, reader: LaunchReader) -> Iterator[tuple[str, ast.expr]]:
