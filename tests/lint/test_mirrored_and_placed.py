@@ -78,3 +78,39 @@ def test_limits_with_the_wrong_sign_are_reported_once_and_not_in_the_states(tmp_
     assert (code, line) == ("M107", line_of('lower="-2"'))
     assert help == "check the signs of the limits"
     assert message == "the limits of joint `left_elbow` exclude all states of the SRDF (-1.2)"
+
+
+CHAIN = """<robot name="arms" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="torso"/>
+  <xacro:macro name="part" params="name parent child xyz">
+    <link name="${child}"/>
+    <joint name="${name}" type="revolute"><parent link="${parent}"/><child link="${child}"/>
+      <origin xyz="${xyz}"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="9" velocity="1"/></joint>
+  </xacro:macro>
+  <xacro:macro name="arm" params="side k elbow hand">
+    <xacro:part name="${side}_shoulder" parent="torso" child="${side}_upper" xyz="0 ${k*0.2} 0.4"/>
+    <xacro:part name="${side}_twist" parent="${side}_upper" child="${side}_middle" xyz="0 ${k*0.05} 0"/>
+    <xacro:part name="${side}_elbow" parent="${side}_middle" child="${side}_lower" xyz="${elbow} ${k*0.02} -0.3"/>
+    <xacro:part name="${side}_wrist" parent="${side}_lower" child="${side}_palm" xyz="0 ${k*0.01} -0.25"/>
+    <xacro:part name="${side}_hand" parent="${side}_palm" child="${side}_tool" xyz="${hand} 0 -0.1"/>
+  </xacro:macro>
+  <xacro:arm side="left" k="1" elbow="0.05" hand="0.03"/>
+  <xacro:arm side="right" k="-1" elbow="ELBOW" hand="HAND"/>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("elbow", "hand", "expected"),
+    [
+        ("0.05", "0.03", []),
+        ("0.05", "0", []),
+        ("0.05", "-0.03", ["hand"]),
+        ("0.15", "0.03", ["elbow"]),
+    ],
+)
+def test_only_the_tools_of_two_arms_may_differ(tmp_path, elbow, hand, expected):
+    (tmp_path / "arms.urdf.xacro").write_text(CHAIN.replace("ELBOW", elbow).replace("HAND", hand))
+    reported = [one.message for one in lint(tmp_path / "arms.urdf.xacro", select=("S909",))]
+    assert len(reported) == len(expected)
+    assert all(f"_{joint}` are not mirrored" in one for joint, one in zip(expected, reported, strict=True)), reported

@@ -44,6 +44,8 @@ def asymmetric_offset(model: Model) -> tuple[Joint, Joint, int] | None:
         return None
     k = next((k for k in range(3) if _matches(model, first, _flipped(second.origin.xyz, k), second, flip)), None)
     if k is None:
+        if not any(each.parent == first.child and _has_twin(each, model) for each in model.robot.joints):
+            return None  # two hands or tools can differ
         differences = [abs(abs(a) - abs(b)) for a, b in zip(first.origin.xyz, second.origin.xyz, strict=True)]
         k = differences.index(max(differences))
     votes = [_votes(joint, k, model) for joint in (first, second)]
@@ -103,6 +105,10 @@ def _offset(joint: Joint, xyz: Vector, model: Model) -> Vector | None:
     """Return an offset of a joint in the root frame, with every joint at zero."""
     frame = model.frames.get(joint.parent or "")
     return rotate(frame.rotation, xyz) if frame is not None else None
+
+
+def _has_twin(joint: Joint, model: Model) -> bool:
+    return any(name in model.robot.joint_by_name for name in mirrored(joint.name))
 
 
 def _matches(model: Model, first: Joint, xyz: Vector, second: Joint, flip: int) -> bool:
