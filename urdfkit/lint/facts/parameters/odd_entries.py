@@ -1,4 +1,4 @@
-"""Entries of YAML files that differ from others of the same file: misspelt keys and names, lengths, missing keys.
+"""Entries of YAML files that differ from others of the same file: misspelt keys and names, values in quotes, lengths.
 
 These checks need no table of a node. They compare sections of the same shape, and a list with the sections that it
 names.
@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
-from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.facts.parameters.declared_types import type_of_text
+from urdfkit.lint.facts.parameters.misspelt_names import is_misspelt
 
 Defects = Iterator[tuple[Node, str]]
 _Flat = dict[tuple[str, ...], tuple[Node, Node]]
@@ -24,7 +25,17 @@ _MAX_DEPTH = 3
 _SHORTEST = 4
 """Smallest number of letters of a name that is compared."""
 
-_NAME = r"[A-Za-z][\w/:.-]*"
+_PARTS = r"[A-Za-z][\w.-]*(?:[_/:][\w.-]+)+"
+"""Matches names with several words; single words such as `heating` and `heading` are often different values."""
+
+_MOST_UNLIKE = 4
+"""Largest number of keys in which two sections of the same shape differ."""
+
+_SIDES = r"(?<![a-z])(?:min|max|upper|lower)(?![a-z])"
+"""Matches words of keys whose lists have the same length as the list of the opposite key."""
+
+_TEXTS = r"(?:.*_)?(?:value|default|text|label|name|id|version|serial|serial_no|code|password|address)"
+"""Matches keys whose values are texts, also if they look like numbers."""
 
 
 def odd_entries(source: Source) -> Defects:
@@ -39,54 +50,41 @@ def odd_entries(source: Source) -> Defects:
 
 
 def _odd_sections(source: Source, sections: list[tuple[Node, Node]]) -> Defects:
-    """Yield the keys, names and lists of sections of the same shape that only one of them has in this form."""
+    """Yield the keys and values of sections of the same shape that only one of them has in this form."""
     if len(sections) < 2:
         return
     flat = [_flat(section) for _, section in sections]
-    count = Counter(path for each in flat for path in each)
     if len(sections) == 2:
         yield from _odd_key_of_two(source, *flat)
         return
-    common = [path for path, times in count.items() if times >= _FEWEST - 1]
-    misspelt = False
+    count = Counter(path for each in flat for path in each)
+    common = [path for path, times in count.items() if times >= max(_FEWEST - 1, len(sections) / 2)]
     for each in flat:
-        for path, (key, _) in each.items():
-            if count[path] != 1 or len(key.text) < _SHORTEST:
-                continue
-            others = [one for one in common if one not in each and one[:-1] == path[:-1]]
-            near = next((name for *_, name in others if is_slip(key.text, name)), None)
-            if near is not None:
-                misspelt = True
-                yield key, f"unknown key `{key.text}`, unlike the other sections" + Suggestion(near, key.text)
-    if not misspelt:
-        yield from _lacking_key(sections)
+        lacking = [path for path in common if path not in each]
+        for path, (key, _) in each.items() if lacking else ():
+            if count[path] == 1 and len(key.text) >= _SHORTEST:
+                others = (name for *parent, name in lacking if tuple(parent) == path[:-1])
+                near = next((name for name in others if is_misspelt(key.text, name)), None)
+                if near is not None:
+                    yield key, f"unknown key `{key.text}`, unlike the other sections" + Suggestion(near, key.text)
     for path in common:
-        values = [value for each in flat if path in each for _, value in [each[path]]]
-        yield from _odd_names(path[-1], [value for value in values if value.kind == "text" and value.is_plain])
-        yield from _odd_list(path[-1], values)
+        values = [value for each in flat if path in each for _, value in [each[path]] if value.kind == "text"]
+        yield from _odd_names(path[-1], [value for value in values if value.is_plain])
+        yield from _quoted(path[-1], values)
 
 
 def _odd_key_of_two(source: Source, one: _Flat, other: _Flat) -> Defects:
     """Yield the key of two sections that differs by a slip from a key of the other one and occurs less often."""
-    for path in one.keys() - other.keys():
-        for near in other.keys() - one.keys():
-            if near[:-1] == path[:-1] and len(path[-1]) > _SHORTEST and is_slip(path[-1], near[-1]):
-                is_first = _times(path[-1], source) < _times(near[-1], source)
-                (key, _), right = (one[path], near[-1]) if is_first else (other[near], path[-1])
-                yield key, f"unknown key `{key.text}`, unlike the other section" + Suggestion(right, key.text)
-
-
-def _lacking_key(sections: list[tuple[Node, Node]]) -> Defects:
-    """Yield the section that lacks one key, if all other sections have exactly the same keys."""
-    names = Counter(frozenset(key.text for key, _ in section.entries) for _, section in sections)
-    if len(names) != 2 or len(sections) <= _FEWEST:
+    left, right = one.keys() - other.keys(), other.keys() - one.keys()
+    if max(len(left), len(right)) > _MOST_UNLIKE:
         return
-    (usual, times), (odd, single) = names.most_common()
-    if single == 1 and times >= _FEWEST and len(usual - odd) == 1 and odd < usual and len(usual) > 1:
-        place = next(key for key, section in sections if odd == {key.text for key, _ in section.entries})
-        (lacking,) = usual - odd
-        name = f"section `{place.text}`" if place.text else "this section"
-        yield place, f"{name} has no `{lacking}`, unlike the other sections"
+    for path in left:
+        for near in right:
+            if near[:-1] == path[:-1] and len(path[-1]) > _SHORTEST and is_misspelt(path[-1], near[-1]):
+                times, others = _times(path[-1], source), _times(near[-1], source)
+                (key, _), name = (one[path], near[-1]) if times < others else (other[near], path[-1])
+                if times != others:
+                    yield key, f"unknown key `{key.text}`, unlike the other section" + Suggestion(name, key.text)
 
 
 def _flat(section: Node) -> _Flat:
@@ -104,33 +102,33 @@ def _flat(section: Node) -> _Flat:
 
 
 def _odd_names(name: str, values: list[Node]) -> Defects:
-    """Yield the name that differs by a slip from the name in at least two of the other sections."""
+    """Yield the name that differs by a slip from the name in at least half of the sections."""
     count = Counter(value.text for value in values)
     if len(values) < _FEWEST or len(count) < 2:
         return
-    usual = [text for text, times in count.items() if times >= _FEWEST - 1]
+    usual = [text for text, times in count.items() if times >= max(_FEWEST - 1, len(values) / 2)]
     for value in values:
-        if count[value.text] == 1 and len(value.text) > _SHORTEST and re.fullmatch(_NAME, value.text):
-            near = next((text for text in usual if is_slip(value.text, text)), None)
+        if count[value.text] == 1 and re.fullmatch(_PARTS, value.text):
+            near = next((text for text in usual if is_misspelt(value.text, text)), None)
             if near is not None:
                 message = f"unknown `{name}` `{value.text}`, unlike the other sections" + Suggestion(near, value.text)
                 yield value, message
 
 
-def _odd_list(name: str, values: list[Node]) -> Defects:
-    """Yield the list of numbers that is one value longer or shorter than the list of all other sections."""
-    lists = [value for value in values if _is_numbers(value)]
-    lengths = Counter(len(value.items) for value in lists)
-    if len(lists) < _FEWEST or len(lists) < len(values) or len(lengths) != 2:
+def _quoted(name: str, values: list[Node]) -> Defects:
+    """Yield the only number or Boolean in quotes, if the values of at least two other sections have none."""
+    quoted = [value for value in values if not value.is_plain]
+    if len(quoted) != 1 or len(values) < _FEWEST or re.fullmatch(_TEXTS, name):
         return
-    (usual, times), (odd, single) = lengths.most_common()
-    if single == 1 and times >= _FEWEST - 1 and abs(usual - odd) == 1 and usual >= _FEWEST:
-        value = next(value for value in lists if len(value.items) == odd)
-        yield value, f"`{name}` has {odd} values; the other sections have {usual}"
+    (value,) = quoted
+    types = {type_of_text(each.text) for each in values}
+    is_text = "\n" in value.text or re.match(r"[-+]?0\d", value.text)
+    if not is_text and (types <= {"int", "double"} or types == {"bool"}):
+        yield value, f'`{name}` is "{value.text}", a quoted string; write {value.text}'
 
 
 def _odd_lengths(node: Node) -> Defects:
-    """Yield the list of numbers that is one value longer or shorter than at least three others next to it."""
+    """Yield the list of numbers whose length differs by one from all others, as from the list of the opposite key."""
     lists = [(key, value) for key, value in node.entries if _is_numbers(value)]
     lengths = Counter(len(value.items) for _, value in lists)
     if len(lists) <= _FEWEST or len(lengths) != 2:
@@ -138,7 +136,9 @@ def _odd_lengths(node: Node) -> Defects:
     (usual, _), (odd, single) = lengths.most_common()
     if single == 1 and abs(usual - odd) == 1 and usual > _FEWEST:
         key, value = next((key, value) for key, value in lists if len(value.items) == odd)
-        yield value, f"`{key.text}` has {odd} values; the other lists in this section have {usual}"
+        stem = re.sub(_SIDES, "", key.text)
+        if stem != key.text and any(each is not key and re.sub(_SIDES, "", each.text) == stem for each, _ in lists):
+            yield value, f"`{key.text}` has {odd} values; the other lists in this section have {usual}"
 
 
 def _is_numbers(value: Node) -> bool:
@@ -155,7 +155,7 @@ def _unlisted_sections(source: Source, node: Node) -> Defects:
             continue
         (item,) = lacking
         free = [name for name in sections if name not in names and name != key.text]
-        near = next((name for name in free if len(name) >= _SHORTEST and is_slip(item.text, name)), None)
+        near = next((name for name in free if len(name) >= _SHORTEST and is_misspelt(item.text, name)), None)
         if near is None:
             continue
         if _times(item.text, source) > _times(near, source):
@@ -166,6 +166,5 @@ def _unlisted_sections(source: Source, node: Node) -> Defects:
 
 def _times(name: str, source: Source) -> int:
     """Return how often the words of a name occur in a file."""
-    return min(
-        len(re.findall(rf"(?<![A-Za-z]){re.escape(word)}", source.text)) for word in re.findall(r"[A-Za-z]+", name)
-    )
+    words = re.findall(r"[A-Za-z]+", name)
+    return min((len(re.findall(rf"(?<![A-Za-z]){word}(?![a-z])", source.text)) for word in words), default=0)

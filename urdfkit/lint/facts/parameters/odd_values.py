@@ -1,7 +1,7 @@
 """Values and names in YAML files that no node accepts or that stand alone, without a table of a node.
 
-Values in quotes, negative rates and sizes, minima above their maxima, keys in another style, misspelt frames, joints
-and parameters, and names that a list has twice.
+Negative rates and sizes, minima above their maxima, misspelt frames, joints and parameters, and names that a list has
+twice.
 """
 
 import re
@@ -11,9 +11,8 @@ from functools import cache, lru_cache
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
-from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.facts.parameters.misspelt_names import is_misspelt
 from urdfkit.lint.model.model import Model
 
 Defects = Iterator[tuple[Node, str]]
@@ -23,44 +22,35 @@ _SHORTEST = 4
 
 _NAME = r"(?:\$\([^()]*\))?[A-Za-z_][\w/:.-]*"
 _LISTS_OF_NAMES = (
-    r"(?:\w+_)?plugins|observation_sources|polygons|critics|filters|sensors|(?:command_|state_)?interfaces|joints"
-    r"|(?:controller_)?joint_names|(?:controller|node|wheel|link|interface)_names|re(?:quest|sponse)_adapters|links"
+    r"(?:\w+_)?plugins|observation_sources|polygons|critics|(?:command|state)_interfaces|joints|(?:\w+_)?joint_names"
+    r"|controller_names|re(?:quest|sponse)_adapters"
 )
 """Matches lists whose entries are all different."""
 
-_TEXTS = (
-    r"(?i).*(?:name|id|serial|version|port|device|code|address|ip|text|label|topic|prefix|suffix|frame|date|model|key"
-    r"|path|file|uri|url|namespace|value|ns|arguments|args|default|color|colour|bus|channel|desc\w*)s?\d*"
-)
-"""Matches parameters whose values are texts, also if they look like numbers."""
-
 _POSITIVE = (
-    r"(?:.*_)?(?:rate|frequency|radius|separation|resolution|tolerance|period|wheelbase|multiplier|priority|timeout)"
+    r"(?:update|publish(?:ing)?|control(?:ler)?|planner|loop)_(?:rate|frequency)|resolution|track_width|wheel_?base"
+    r"|wheel_separation|(?:wheel|foot|robot|inflation)_radius"
 )
 """Matches parameters that are not negative; -1 stands for a default."""
-
-_FOLDERS = r"/(?:config|configs|cfg|params?|parameters|yaml)/[^/]*$"
-"""Matches files in a folder of parameters."""
 
 _BOUNDS = ((r"(?<![a-z])min(?![a-z])", "max"), (r"(?<![a-z])lower(?![a-z])", "upper"))
 """Words of parameters that are lower bounds, and those of their upper bounds."""
 
+_ORDERED = (
+    r"lower|position|vel|velocity|speed|acc|acceleration|range|dist|distance|depth|height|force|effort|torque|voltage"
+    r"|current|temperature|width|particles"
+)
+"""Matches words of parameters with bounds in this order; sectors go over zero and servos turn in both directions."""
+
 _CAMEL = r"[a-z]+[a-z0-9]*(?:[A-Z][a-z0-9]+)+"
-_SNAKE = r"[a-z0-9]+(?:_[a-z0-9]+)+"
-_OF_OMPL = "frountierNodeRatio"
-_FEWEST_OF_STYLE = 6
-"""Smallest number of keys with underscores next to which a key in another style is misspelt."""
 
 _FRAMES = ("map", "odom", "base_link", "base_footprint", "world")
 
 
 def odd_values(source: Source, model: Model) -> Defects:
     """Yield the values and names of a YAML file that no node accepts or that stand alone, with a message."""
-    is_parameter_file = PARAMETERS in source.text or re.search(_FOLDERS, source.file) is not None
-    groups = [node for node in nodes(source) if node.entries]
-    for node in groups:
-        if is_parameter_file:
-            yield from _quoted_or_negative(node)
+    for node in nodes(source):
+        yield from _negative(node)
         yield from _reversed(node)
         yield from _misspelt_joints(node, model)
         yield from _misspelt_frames(node, model)
@@ -69,26 +59,21 @@ def odd_values(source: Source, model: Model) -> Defects:
             if re.fullmatch(_LISTS_OF_NAMES, key.text):
                 yield from _repeated(key, value)
             yield from _unlike_numbered(key, value)
-    yield from _other_style(groups, model)
 
 
-def _quoted_or_negative(node: Node) -> Defects:
+def _negative(node: Node) -> Defects:
     for key, value in node.entries:
-        for item in value.items if value.kind == "list" else (value,):
-            name, number = key.text.rpartition(".")[2], number_of(item) if item.kind == "text" else None
-            if item.kind == "text" and not item.is_plain and item.text in ("true", "false", "True", "False"):
-                yield item, f'`{key.text}` is "{item.text}", a quoted string; write {item.text.lower()}'
-            elif number is not None and not item.is_plain and "\n" not in item.text and not re.fullmatch(_TEXTS, name):
-                yield item, f'`{key.text}` is "{item.text}", a quoted string; write {item.text}'
-            elif number is None or not re.fullmatch(_POSITIVE, name) or value is not item:
-                continue
-            elif number < 0.0 and number != -1.0:
-                yield item, f"`{key.text}` is {item.text}; it must not be negative"
+        number = number_of(value) if value.kind == "text" and value.is_plain else None
+        is_negative = number is not None and number < 0.0 and number != -1.0
+        if is_negative and re.fullmatch(_POSITIVE, key.text.rpartition(".")[2]):
+            yield value, f"`{key.text}` is {value.text}; it must not be negative"
 
 
 def _reversed(node: Node) -> Defects:
     """Yield the lower bounds above their upper bounds."""
     for key, value in node.entries:
+        if re.search(rf"(?:^|_)(?:{_ORDERED})(?:_|$)", key.text) is None:
+            continue
         low = number_of(value) if value.kind == "text" else None
         for word, other in _BOUNDS if low is not None else ():
             name = re.sub(word, other, key.text, count=1)
@@ -108,7 +93,7 @@ def _misspelt_frames(node: Node, model: Model) -> Defects:
         name = value.text.strip("/")
         if name in links or name in _FRAMES or len(name) < 3 or "$" in name:
             continue
-        near = next((each for each in (*_FRAMES, *links) if is_slip(name, each)), None)
+        near = next((each for each in (*_FRAMES, *links) if is_misspelt(name, each)), None)
         if near is not None and not model.neighbouring_descriptions.define("link", name):
             yield value, f"unknown frame `{name}`" + Suggestion(near, name)
 
@@ -144,7 +129,7 @@ def _nearest_parameter(name: str) -> str:
     if name in tabulated.get(len(name), ()):
         return ""
     lengths = range(len(name) - 1, len(name) + 4 if re.fullmatch(_CAMEL, name) else len(name) + 2)
-    return next((each for length in lengths for each in tabulated.get(length, ()) if is_slip(name, each)), "")
+    return next((each for length in lengths for each in tabulated.get(length, ()) if is_misspelt(name, each)), "")
 
 
 def _misspelt_parameters(node: Node) -> Defects:
@@ -159,21 +144,11 @@ def _misspelt_parameters(node: Node) -> Defects:
             yield key, f"unknown parameter `{key.text}`" + Suggestion(near, key.text)
 
 
-def _other_style(groups: list[Node], model: Model) -> Defects:
-    """Yield the only key of a file without underscores whose words start with capitals."""
-    keys = [(key, value) for node in groups for key, value in node.entries]
-    camel = [(key, value) for key, value in keys if re.fullmatch(_CAMEL, key.text) and key.text != _OF_OMPL]
-    names = {key.text for key, _ in keys if re.fullmatch(_SNAKE, key.text)}
-    if len(camel) != 1 or len(names) < _FEWEST_OF_STYLE:
-        return
-    (key, value), *_ = camel
-    if value.kind != "group" and key.text not in model.robot.joint_by_name and key.text not in model.robot.link_by_name:
-        right = re.sub(r"[A-Z]", lambda at: f"_{at[0].lower()}", key.text)
-        yield key, f"the other keys of this file have underscores, unlike `{key.text}`" + Suggestion(right, key.text)
-
-
 def _repeated(key: Node, value: Node) -> Defects:
-    """Yield the names that a list has twice."""
+    """Yield the only name that a list has twice; lists with several such names describe something else."""
+    names = [item.text for item in value.items]
+    if len(set(names)) != len(names) - 1:
+        return
     seen = set[str]()
     for item in value.items:
         if item.text in seen and re.fullmatch(_NAME, item.text):
@@ -191,10 +166,12 @@ def _unlike_numbered(key: Node, value: Node) -> Defects:
     if len(stems) != 2 or times != len(names) - 1 or len(usual) < _SHORTEST:
         return
     odd = next(item for item in names if re.sub(r"\d+", "", item.text) != usual)
-    if is_slip(re.sub(r"\d+", "", odd.text), usual):
+    if is_misspelt(re.sub(r"\d+", "", odd.text), usual):
         numbers = iter(re.findall(r"\d+", odd.text))
         other = next(item.text for item in names if item is not odd)
         right = re.sub(r"\d+", lambda at: next(numbers, at[0]), other)
+        if right in (item.text for item in names):
+            return
         yield odd, f"`{odd.text}` in `{key.text}` is written unlike the other names" + Suggestion(right, odd.text)
 
 
@@ -220,6 +197,6 @@ def _misspelt(names: list[Node], model: Model) -> Defects:
         text = name.text
         if text in robot.joint_by_name or text in robot.link_by_name or len(text) < _SHORTEST or "$" in text:
             continue
-        near = next((each for each in robot.joint_by_name if each not in written and is_slip(text, each)), None)
+        near = next((each for each in robot.joint_by_name if each not in written and is_misspelt(text, each)), None)
         if near is not None and not model.neighbouring_descriptions.define("joint", text):
             yield name, f"joint `{text}` does not exist" + Suggestion(near, text)

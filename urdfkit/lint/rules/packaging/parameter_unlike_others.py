@@ -9,25 +9,28 @@ class ParameterUnlikeOthers(RobotRule):
     ## What it does
     Compares the entries of each YAML file with each other and with the joints of the robot. Reports:
 
-    - keys and names that differ by a letter from those of at least two sections of the same shape
-    - lists of numbers that are one value longer or shorter than the lists of the other sections
+    - keys and names that differ by a letter from those of at least half of the sections of the same shape
+    - numbers and Booleans in quotes, if the other sections have them without quotes
+    - lists of numbers that are one value longer or shorter than the list of the opposite key and all others
     - names in a list without a section, next to a section that the list does not name
-    - names that occur twice in a list of joints, plugins or controllers
+    - a name that occurs twice in a list of joints, plugins or controllers
     - misspelt joints and frames of the robot, and misspelt parameters, in the parameters of any node
-    - sections that lack a key of all others, minima above their maxima, and the only key without underscores
-    - Booleans and numbers in quotes, and negative rates and sizes
+    - negative rates and sizes, and minima above their maxima
 
-    Entries that a rule for their node reports are left out.
+    Reads files with `ros__parameters`, files that launch files name, and files in configuration folders of packages.
+    Names that occur in the code of the workspace, and entries that a rule for their node reports, are left out.
 
     ## Why is this bad?
     Nodes ignore unknown keys and use their defaults, and reject values of another type.
 
     ## Example
     ```diff
-     FL_hip_controller: {type: legged_control/JointController, joint: FL_hip_joint}
-     FR_hip_controller: {type: legged_control/JointController, joint: FR_hip_joint}
-    -RL_hip_controller: {type: legged_control/JointController, jiont: RL_hip_joint}
-    +RL_hip_controller: {type: legged_control/JointController, joint: RL_hip_joint}
+     gait:
+       ros__parameters:
+         front: {type: gait/Leg, joint: front_hip}
+         middle: {type: gait/Leg, joint: middle_hip}
+    -    rear: {type: gait/Leg, jiont: rear_hip}
+    +    rear: {type: gait/Leg, joint: rear_hip}
     ```
 
     ## Fix safety
@@ -42,17 +45,19 @@ class ParameterUnlikeOthers(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each entry, one for each line."""
         from urdfkit.description.xml.reader import shown_path
-        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+        from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.parameters.odd_entries import odd_entries
+        from urdfkit.lint.facts.parameters.odd_files import files_of_nodes, is_in_code
         from urdfkit.lint.facts.parameters.odd_values import odd_values
 
         read = {shown_path(file) for file in model.expanded.files}
-        for source in yamls(model):
+        for source in files_of_nodes(model):
             lines = set[int]()
             for place, message in (*odd_values(source, model), *odd_entries(source)):
-                if place.line not in lines:
-                    lines.add(place.line)
-                    kind = "numbered" if "unlike the other names" in message else ""
-                    if ", more than `" in message and source.file in read:
-                        kind = "bounds"
-                    yield self.at_span(span_of(source, place), message, kind=kind)
+                if place.line in lines or ("did you mean" in message and is_in_code(place.text, model)):
+                    continue
+                lines.add(place.line)
+                kind = "numbered" if "unlike the other names" in message else ""
+                if ", more than `" in message and source.file in read:
+                    kind = "bounds"
+                yield self.at_span(span_of(source, place), message, kind=kind)
