@@ -129,6 +129,8 @@ Follower::Follower() : Node("follower") {
 }
 """
 OF_HEAT = GUARD.replace("~/stopped", "cpu_temperature").replace("Bool", "Float32")
+PLANS = "\n        self.plan = self.create_publisher(Twist, 'plan', 1)"
+WISHES = "_command, 1)\n        self.create_subscription(Twist, 'wish', self.on_command, 1)"
 SECTION = "guard:\n  ros__parameters:\n    input: cmd_raw\n"
 BOTH = '<node pkg="cart" exec="follower"/>\n'
 
@@ -157,9 +159,8 @@ def in_code(folder, guard=GUARD, follower=FOLLOWER, section="", name="follower.p
         {"follower": FOLLOWER.replace("guard/stopped", "bumper_pressed")},
         {"follower": FOLLOWER.replace("guard/stopped", "bumper_pressed").replace("Bool", "Float32"), "guard": OF_HEAT},
         {
-            "follower": FOLLOWER.replace(
-                "TOPIC, 1)", "'plan', 1)\n        self.b = self.create_publisher(Twist, 'wish', 1)"
-            )
+            "follower": FOLLOWER.replace("TOPIC, 1)", f"TOPIC, 1){PLANS}"),
+            "guard": GUARD.replace("_command, 1)", WISHES),
         },
         {"follower": FOLLOWER.replace("TOPIC, 1", " + ".join(["'a'"] * 900) + ", 1")},
         {"follower": FOLLOWER.replace("self.out = ", f"a{'.a' * 900}.Publisher('b', Bool)\n        self.out = ")},
