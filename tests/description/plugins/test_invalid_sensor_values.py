@@ -46,9 +46,9 @@ def test_numbers(inside: str, expected: list[str]) -> None:
         ("<ray/>", [("ray", "the range of the lidar, 0 m to 0 m, is empty")]),
         (scan(), []),
         (scan(bounds="<max>9</max>"), []),
-        (scan(bounds="<min>0.1</min>"), [("range", "the range of the lidar, 0.1 m to 0 m, is empty")]),
+        (scan(bounds="<min>0.1</min>"), [("min", "the range of the lidar, 0.1 m to 0 m, is empty")]),
         (scan(bounds="<min>-1</min><max>-2</max>"), [("min", "<min> is -1 m; it must be zero or greater")]),
-        (scan(bounds="<min>5</min><max>5</max>"), [("range", "the range of the lidar, 5 m to 5 m, is empty")]),
+        (scan(bounds="<min>5</min><max>5</max>"), [("min", "the range of the lidar, 5 m to 5 m, is empty")]),
         (scan(bounds="<min>5</min><max>far</max>"), []),
         (scan("<samples>1</samples>"), []),
         (scan("<samples>0.5</samples>"), [("horizontal", "<horizontal> has 0.5 samples; it must be one or more")]),
@@ -65,17 +65,17 @@ def test_numbers(inside: str, expected: list[str]) -> None:
         (scan("<min_angle>0</min_angle>"), []),
         (
             scan("<min_angle>1</min_angle>"),
-            [("horizontal", "<horizontal> goes from 1 to 0 rad: the smaller angle is <min_angle>")],
+            [("min_angle", "<horizontal> goes from 1 to 0 rad: the smaller angle is <min_angle>")],
         ),
         (
             scan("<samples>9</samples><min_angle>1</min_angle><max_angle>1</max_angle>"),
-            [("horizontal", "<horizontal> has 9 samples, but <min_angle> and <max_angle> are both 1 rad")],
+            [("min_angle", "<horizontal> has 9 samples, but <min_angle> and <max_angle> are both 1 rad")],
         ),
         (scan("<samples>1</samples><min_angle>1</min_angle><max_angle>1</max_angle>"), []),
         (scan("<samples>9</samples><min_angle>0</min_angle><max_angle>0</max_angle>"), []),
         (
             scan("<max_angle>-1</max_angle>"),
-            [("horizontal", "<horizontal> goes from 0 to -1 rad: the smaller angle is <min_angle>")],
+            [("max_angle", "<horizontal> goes from 0 to -1 rad: the smaller angle is <min_angle>")],
         ),
     ],
 )
