@@ -73,6 +73,7 @@ def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[st
     ("line", "message"),
     [
         ("", "pass a command: `urdfkit --help` lists all; try `urdfkit view simpleton`"),
+        ("hlep", "unknown command `hlep`; did you mean `urdfkit --help`?"),
         ("help", "unknown command `help`; did you mean `urdfkit --help`?"),
         ("help tf", "unknown command `help`; did you mean `urdfkit tf --help`?"),
         ("simpleton", "unknown command `simpleton`; did you mean `urdfkit view simpleton`?"),

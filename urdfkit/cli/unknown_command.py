@@ -41,7 +41,7 @@ def refuse(word: str, commands: Sequence[str], following: Sequence[str] = ()) ->
     Raises:
         UsageError: always.
     """
-    near = word if word in OTHER_NAMES else nearest(word, [*commands, *OTHER_NAMES.keys() - {"list", "help"}])
+    near = word if word in OTHER_NAMES else nearest(word, [*commands, *OTHER_NAMES.keys() - {"list"}])
     meant = OTHER_NAMES.get(near or "", near)
     if word == "help" and following and following[0] in commands:
         meant = f"{following[0]} --help"
