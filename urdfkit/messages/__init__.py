@@ -4,7 +4,7 @@ Definitions that rosbags lacks are in the other modules, one per family of ROS p
 """
 
 from urdfkit.messages.constructors import header, stamp, transform, twist, vector
-from urdfkit.messages.field_values import as_message, from_fields
+from urdfkit.messages.field_values import from_fields
 from urdfkit.messages.point_cloud import read_points
 from urdfkit.messages.types import (
     BOOL,
@@ -41,7 +41,6 @@ __all__ = [
     "TRAJECTORY_STATE",
     "TWIST",
     "TWIST_STAMPED",
-    "as_message",
     "from_fields",
     "full_type_name",
     "header",

@@ -15,7 +15,8 @@ from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import Array
-from urdfkit.messages import TWIST, TWIST_STAMPED, as_message, header, message_type, require_message_types, twist
+from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, require_message_types, twist
+from urdfkit.messages.field_values import as_message
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity

@@ -44,8 +44,9 @@ def asymmetric_offset(model: Model) -> tuple[Joint, Joint, int] | None:
         return None
     k = next((k for k in range(3) if _matches(model, first, _flipped(second.origin.xyz, k), second, flip)), None)
     if k is None:
-        if not any(each.parent == first.child and _has_twin(each, model) for each in model.robot.joints):
-            return None  # two hands or tools can differ
+        is_last = not any(each.parent == first.child and _has_twin(each, model) for each in model.robot.joints)
+        if is_last and all(each in (first, second) for each in _family(first, model)):
+            return None  # two hands or tools can differ, unlike the feet of four legs
         differences = [abs(abs(a) - abs(b)) for a, b in zip(first.origin.xyz, second.origin.xyz, strict=True)]
         k = differences.index(max(differences))
     votes = [_votes(joint, k, model) for joint in (first, second)]
