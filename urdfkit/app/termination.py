@@ -24,7 +24,11 @@ class Interrupted(KeyboardInterrupt):
 
 
 class _Ended(SystemExit):
-    """SIGTERM or SIGHUP."""
+    """SIGTERM or SIGHUP, by its number."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(128 + number)
+        self.number = number
 
 
 @contextmanager
@@ -56,15 +60,14 @@ def ended_by_signals() -> Iterator[None]:
             return
         ended.append(number)
         if len(ended) != 2:  # a shell may send the signal twice; the second must not interrupt the cleanup
-            raise _Ended(128 + number)
+            raise _Ended(number)
 
     def report(ignored: sys.UnraisableHookArgs) -> None:
         if isinstance(ignored.exc_value, Interrupted):
             _repeat(signal.SIGINT)
         elif isinstance(ignored.exc_value, _Ended):
-            number = ended[0]
             ended.clear()  # also if the shell sent the signal twice
-            _repeat(number)
+            _repeat(ignored.exc_value.number)
         else:
             hook(ignored)
 
