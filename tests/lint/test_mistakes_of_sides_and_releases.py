@@ -135,17 +135,11 @@ FORTRESS = ("ignition-gazebo-imu-system", "ignition::gazebo::systems::Imu")
 HARMONIC = ("gz-sim-imu-system", "gz::sim::systems::Imu")
 
 
-@pytest.mark.parametrize(
-    ("tag", "plugin", "lines"),
-    [
-        ("gz_frame_id", FORTRESS, [3]),
-        ("ignition_frame_id", FORTRESS, []),
-        ("gz_frame_id", HARMONIC, []),
-    ],
-)
-def test_the_frame_of_a_sensor_has_the_tag_of_its_release(tmp_path, tag, plugin, lines):
-    findings = found(tmp_path, {"arm.urdf": FRAME.format(tag, *plugin)}, "Z806")
-    assert [line for _, _, line in findings] == lines
+@pytest.mark.parametrize("plugin", [FORTRESS, HARMONIC])
+@pytest.mark.parametrize("tag", ["gz_frame_id", "ignition_frame_id"])
+def test_the_frame_of_a_sensor_has_either_tag_in_every_release(tmp_path, tag, plugin):
+    """Gazebo Fortress reads both (gz-sensors, issue 306)."""
+    assert found(tmp_path, {"arm.urdf": FRAME.format(tag, *plugin)}, "Z806") == []
 
 
 MIMIC = """<robot name="arm"><link name="hand"/><link name="a"/><link name="b"/>

@@ -1,6 +1,5 @@
 """Z806 plugin-param-wrong-generation."""
 
-from urdfkit.lint.facts.gazebo.named_releases import is_of_fortress
 from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of, specs
 from urdfkit.lint.fix_builders import new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -15,7 +14,6 @@ class PluginParamWrongGeneration(RobotRule):
     ROS 1 spells parameters in camelCase, ROS 2 and Gazebo Sim in snake_case, and some parameters have changed their
     meaning. The rule reports parameters that only another generation of the plugin reads. The target determines the
     generation. Without a target, the generation is that in which most parameters of the plugin are spelt.
-    Also reports ``<gz_frame_id>`` in a sensor of a robot with plugins of Gazebo Fortress.
 
     ## Why is this bad?
     The plugin ignores the parameter and uses its default, so topics, frames and wheels differ from the description.
@@ -46,7 +44,6 @@ class PluginParamWrongGeneration(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter that only another generation reads."""
-        yield from self._frames(model)
         for plugin, _, _ in plugins(model.robot):
             spec = spec_of(plugin, model.target)
             others = [other for other in specs(plugin) if other is not spec]
@@ -70,16 +67,3 @@ class PluginParamWrongGeneration(RobotRule):
                     fix=None if equivalent is None or is_set else new_tag(model, child, equivalent.tag, "unsafe"),
                     kind=spec.generation,
                 )
-
-    def _frames(self, model: Model) -> Findings:
-        """Yield a finding for each frame of a sensor in a tag that Gazebo Fortress ignores.
-
-        Source: gz-sensors (Migration.md: Gazebo Garden renamed ``<ignition_frame_id>``).
-        """
-        sensors = [sensor.element for block in model.robot.gazebo for sensor in block.sensors]
-        frames = [(sensor, frame) for sensor in sensors if (frame := sensor.find("gz_frame_id")) is not None]
-        for sensor, frame in frames if frames and is_of_fortress(model) else ():
-            if sensor.find("ignition_frame_id") is None:
-                fix = new_tag(model, frame, "ignition_frame_id", "unsafe")
-                message, help = "<gz_frame_id> is not read in Gazebo Fortress", "use <ignition_frame_id>"
-                yield self.at(model, frame, message, help=help, fix=fix, kind="gz")
