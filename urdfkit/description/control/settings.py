@@ -106,16 +106,28 @@ class Settings:
             raise DescriptionError(f"`{path}` is `{found.value}`; it must be true or false", position=found.position)
         return _TRUTHS[found.value.lower()]
 
-    def texts(self, path: str) -> tuple[Settings, ...]:
+    def entry(self, path: str) -> Settings:
+        """Return a required parameter with a single value.
+
+        Raises:
+            DescriptionError: the parameter is a list or a group, or is missing.
+        """
+        self.text(path)
+        return self.group(path)
+
+    def texts(self, path: str, *, required: bool = False) -> tuple[Settings, ...]:
         """Return the entries of a list of strings; a single string is a list of one, a missing parameter an empty list.
 
         Raises:
-            DescriptionError: the parameter or an entry of it is a group.
+            DescriptionError: the parameter or an entry of it is a group, or a required list is missing or empty.
         """
         found = self.find(path)
         if found is None or (found.value is None and found.items is None and not found.children):
-            return ()
-        entries = (found,) if found.items is None else found.items
+            entries: tuple[Settings, ...] = ()
+        else:
+            entries = (found,) if found.items is None else found.items
+        if required and not entries:
+            raise self._missing(path)
         for entry in entries:
             if entry.value is None:
                 raise DescriptionError(f"`{path}` must be a name or a list of names", position=entry.position)

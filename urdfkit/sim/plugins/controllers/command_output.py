@@ -29,6 +29,7 @@ class Output(ABC):
         handle: the joint.
         period: period of the control loop [s].
         limits: limits of the commands, where they are enforced (ROS 1).
+        gains: gains of the PID that follows the command; None for an interface without PID.
 
     Attributes:
         joint_pid: PID that follows the command; None for an interface without PID.
@@ -36,12 +37,14 @@ class Output(ABC):
 
     interface: ClassVar[str]
 
-    def __init__(self, handle: JointHandle, period: float, limits: JointLimits | None = None) -> None:
+    def __init__(
+        self, handle: JointHandle, period: float, limits: JointLimits | None = None, gains: Gains | None = None
+    ) -> None:
         self.handle = handle
         self.period = period
         self.limits = limits
         self.command = 0.0
-        self.joint_pid: JointPid | None = None
+        self.joint_pid = JointPid(handle, gains) if gains is not None else None
 
     @property
     def claim(self) -> tuple[str, str]:
@@ -51,6 +54,8 @@ class Output(ABC):
     def start(self, state: State) -> None:
         """Set the initial command: the present position, or zero velocity or effort."""
         self.command = 0.0
+        if self.joint_pid is not None:
+            self.joint_pid.integral.reset()
 
     @abstractmethod
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
@@ -104,18 +109,6 @@ class VelocityOutput(Output):
 
     interface = "velocity"
 
-    def __init__(
-        self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
-    ) -> None:
-        super().__init__(handle, period, limits)
-        self.joint_pid = JointPid(handle, gains) if gains is not None else None
-
-    def start(self, state: State) -> None:
-        """Set the command to zero."""
-        super().start(state)
-        if self.joint_pid is not None:
-            self.joint_pid.integral.reset()
-
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Apply a command; return the time until the next update is needed [s]."""
         self.command = command
@@ -137,22 +130,10 @@ class PositionOutput(Output):
 
     interface = "position"
 
-    def __init__(
-        self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
-    ) -> None:
-        super().__init__(handle, period, limits)
-        self.joint_pid = JointPid(handle, gains) if gains is not None else None
-
-    @property
-    def has_gains(self) -> bool:
-        """Whether a PID follows the position commands."""
-        return self.joint_pid is not None
-
     def start(self, state: State) -> None:
         """Set the command to the present position."""
+        super().start(state)
         self.command = self._granted = state.position(self.handle.name)
-        if self.joint_pid is not None:
-            self.joint_pid.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Apply a command; return the time until the next update is needed [s]."""

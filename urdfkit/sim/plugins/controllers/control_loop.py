@@ -101,7 +101,7 @@ class ControlLoop:
         for output in self.hardware.outputs.values():
             output.handle.reset()
             output.start(state)
-        for controller in self._running():
+        for controller in self.running():
             controller.start(state)
         self.wake()
 
@@ -110,7 +110,7 @@ class ControlLoop:
         rest = inf
         free = dict(self._first)
         if not self.halted:
-            for controller in self._running():
+            for controller in self.running():
                 rest = min(rest, controller.update(state, motors))
                 for output in controller.outputs:
                     free.pop(output.handle.name, None)
@@ -130,7 +130,8 @@ class ControlLoop:
         self.halted = halted
         self.wake()
 
-    def _running(self) -> list[RosController]:
+    def running(self) -> list[RosController]:
+        """Return the running controllers."""
         return [controller for controller in self.controllers.values() if controller.running]
 
     # The controller manager's services
@@ -196,7 +197,7 @@ class ControlLoop:
         """
         stopping = [self._loaded(name) for name in stop]
         starting = [self._loaded(name) for name in start if self.load(name)]
-        after = [controller for controller in self._running() if controller not in stopping]
+        after = [controller for controller in self.running() if controller not in stopping]
         after += [controller for controller in starting if controller not in after]
         owners: dict[str, RosController] = {}
         for controller in after:

@@ -37,9 +37,7 @@ class Controllers:
     @property
     def command_topics(self) -> dict[str, str]:
         """Topic → type, of the velocity commands that running controllers subscribe to."""
-        controllers = [
-            controller for loop in self._loops for controller in loop.controllers.values() if controller.running
-        ]
+        controllers = [controller for loop in self._loops for controller in loop.running()]
         return {topic: kind for controller in controllers for topic, kind in controller.commands.items()}
 
     @property
@@ -55,9 +53,7 @@ class Controllers:
 
     def odometry(self, state: State) -> dict[str, Pose]:
         """Return odometry frame → pose, as estimated by the running controllers."""
-        controllers = [
-            controller for loop in self._loops for controller in loop.controllers.values() if controller.running
-        ]
+        controllers = [controller for loop in self._loops for controller in loop.running()]
         return {frame: pose for controller in controllers for frame, pose in controller.estimate(state).items()}
 
     def list(self) -> tuple[ControllerStatus, ...]:

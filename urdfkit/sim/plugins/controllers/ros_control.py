@@ -141,4 +141,4 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
     if kind == "effort":
         return EffortOutput(handle, period, limits)
     gains = read_gains(settings, f"gazebo_ros_control/pid_gains/{own}", setup.note)
-    return (PositionOutput if kind == "position" else VelocityOutput)(handle, period, gains, limits)
+    return (PositionOutput if kind == "position" else VelocityOutput)(handle, period, limits, gains)

@@ -30,12 +30,10 @@ class Forward(RosController):
         Raises:
             DescriptionError: no joint, or a joint without the command interface.
         """
-        self.settings.text("joint")
-        (entry,) = self.settings.texts("joint")[:1]
-        self.outputs = (self.hardware.output(entry, self.types[self.type]),)
+        output = self.hardware.output(self.settings.entry("joint"), self.types[self.type])
+        self.outputs = (output,)
         self.listen(self.topic("command"), FLOAT, lambda message: self.take([float(message.data)]))
-        (output,) = self.outputs
-        if isinstance(output, PositionOutput) and not output.has_gains and self.settings.find("pid") is not None:
+        if isinstance(output, PositionOutput) and output.joint_pid is None and self.settings.find("pid") is not None:
             self.hardware.setup.note(
                 f"{self.settings.place.file}: {self.type} does not read `pid`: the hardware uses "
                 "gazebo_ros_control/pid_gains/JOINT; without these gains it sets the position with any effort"
@@ -83,9 +81,7 @@ class ForwardGroup(Forward):
                 f"(available: {', '.join(INTERFACES)})",
                 position=self.settings.group("interface_name").position,
             )
-        joints = self.settings.texts("joints")
-        if not joints:
-            self.settings.text("joints")
+        joints = self.settings.texts("joints", required=True)
         named = self.settings.find("interface_name")
         place = None if named is None else named.position
         self.outputs = tuple(self.hardware.output(entry, interface, place) for entry in joints)

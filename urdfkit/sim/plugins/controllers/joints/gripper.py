@@ -36,9 +36,7 @@ class Gripper(RosController):
             DescriptionError: a joint, its gains or another parameter is missing or invalid.
         """
         read = self.settings
-        read.text("joint")
-        (entry,) = read.texts("joint")[:1]
-        output = self.hardware.output(entry, self.types[self.type])
+        output = self.hardware.output(read.entry("joint"), self.types[self.type])
         self.outputs = (output,)
         self._name = output.handle.name
         self._joint_pid: JointPid | None = None

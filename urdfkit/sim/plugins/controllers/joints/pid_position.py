@@ -37,9 +37,7 @@ class PidPosition(RosController):
         Raises:
             DescriptionError: a joint, its gains or another parameter is missing or invalid.
         """
-        self.settings.text("joint")
-        (entry,) = self.settings.texts("joint")[:1]
-        output = self.hardware.output(entry, self.types[self.type])
+        output = self.hardware.output(self.settings.entry("joint"), self.types[self.type])
         self.outputs = (output,)
         gains = read_gains(self.settings, "pid", self.hardware.setup.note)
         if gains is None:
@@ -135,9 +133,7 @@ class PidGroup(RosController):
         Raises:
             DescriptionError: the joints, the gains of a joint or another parameter is missing or invalid.
         """
-        joints = self.settings.texts("joints")
-        if not joints:
-            self.settings.text("joints")
+        joints = self.settings.texts("joints", required=True)
         self.outputs = tuple(self.hardware.output(entry, "effort") for entry in joints)
         joint_pids = []
         for entry, output in zip(joints, self.outputs, strict=True):

@@ -58,9 +58,7 @@ class DiffDriveController(WheeledBase):
         self._subscribe()
 
     def _wheels(self, parameter: str) -> tuple[Output, ...]:
-        named = self.settings.texts(parameter)
-        if not named:
-            self.settings.text(parameter)
+        named = self.settings.texts(parameter, required=True)
         return tuple(self.hardware.output(entry, "velocity") for entry in named)
 
     def _read_geometry(self) -> None:

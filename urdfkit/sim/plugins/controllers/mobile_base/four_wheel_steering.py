@@ -52,10 +52,8 @@ class FourWheelSteeringController(WheeledBase):
         self.publish_odometry()
 
     def _pair(self, name: str, interface: str) -> tuple[Output, Output]:
-        found = self.settings.texts(name)
+        found = self.settings.texts(name, required=True)
         if len(found) != 2:
-            if not found:
-                self.settings.text(name)
             place = self.settings.group(name).place
             raise DescriptionError(
                 f"`{name}` names {len(found)} joints; it must name two, the left one first", position=place

@@ -32,9 +32,7 @@ class MecanumController(WheeledBase):
         wheels = []
         for corner in CORNERS:
             name = f"{corner}_wheel_command_joint_name"
-            read.text(name)
-            (entry,) = read.texts(name)[:1]
-            wheels.append(self.hardware.output(entry, "velocity"))
+            wheels.append(self.hardware.output(read.entry(name), "velocity"))
         self.outputs = tuple(wheels)
         self._radius = self.positive("kinematics/wheels_radius")
         self._reach = self.positive("kinematics/sum_of_robot_center_projection_on_X_Y_axis")

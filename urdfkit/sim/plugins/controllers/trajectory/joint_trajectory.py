@@ -50,9 +50,7 @@ class TrajectoryFollower(RosController):
             DescriptionError: no joints, or a joint without the command interface.
         """
         hardware, settings = self.hardware, self.settings
-        joints = settings.texts("joints")
-        if not joints:
-            settings.text("joints")
+        joints = settings.texts("joints", required=True)
         self._interface = self.types[self.type] or self._chosen()
         named = (each.position for each in settings.texts("command_interfaces") if each.value == self._interface)
         place = next(named, None)
@@ -89,9 +87,7 @@ class TrajectoryFollower(RosController):
 
     def _chosen(self) -> str:
         """Return the interface to use of ``command_interfaces``: position if it is one of them."""
-        entries = self.settings.texts("command_interfaces")
-        if not entries:
-            self.settings.text("command_interfaces")
+        entries = self.settings.texts("command_interfaces", required=True)
         for entry in entries:
             if entry.value not in (*INTERFACES, "acceleration"):
                 message = f"unknown interface `{entry.value}`" + did_you_mean(entry.value or "", INTERFACES)
