@@ -75,13 +75,9 @@ PHRASES = {
 
 MEANT = {
     "parse_known_args": "a method of argparse",
-    "ShapesApart": "the class of the rule `shapes-apart`, whose name users write in their settings",
     "DIAGONAL_KNOWN": "the ROS constant COVARIANCE_TYPE_DIAGONAL_KNOWN",
     "compiler knows": "the established expression for facts that a compiler can use",
     'name = "loose"': "an option of `urdfkit new world`",
-    "ask = false": "a key of template.toml, which authors of templates write",
-    "says = {": "a key of template.toml, which authors of templates write",
-    "[word.says]": "a key of template.toml, which authors of templates write",
     "CompilationListener": "a listener of numba's compilation events",
     "is None": "the value None",
     "What it does": "a section of the pages of rules",

@@ -113,9 +113,9 @@ def _move(source: Path, target: Path) -> None:
     except OSError as error:
         if error.errno != errno.EXDEV:
             raise
-        with tempfile.TemporaryDirectory(prefix=".urdfkit-", dir=target.parent) as beside:
-            shutil.copy2(source, Path(beside) / source.name)
-            (Path(beside) / source.name).replace(target)
+        with tempfile.TemporaryDirectory(prefix=".urdfkit-", dir=target.parent) as folder:
+            shutil.copy2(source, Path(folder) / source.name)
+            (Path(folder) / source.name).replace(target)
 
 
 def _digest(content: bytes | None) -> str:

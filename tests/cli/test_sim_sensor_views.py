@@ -90,16 +90,16 @@ def shown():
     now = [0.0]
     page = Page()
     simulator = Simulator(load(LASER), world="cylinders", note=lambda _: None)
-    sights = SensorViews(simulator, page, lambda: now[0])  # type: ignore[arg-type]
-    assert sights.find()
-    return simulator, page, sights, now
+    views = SensorViews(simulator, page, lambda: now[0])  # type: ignore[arg-type]
+    assert views.find()
+    return simulator, page, views, now
 
 
-def test_the_page_gets_what_the_laser_met(shown) -> None:
-    simulator, page, sights, _ = shown
+def test_the_page_receives_the_points_of_the_laser_scan(shown) -> None:
+    simulator, page, views, _ = shown
     assert page.declared == [{"type": "sensors", "sensors": [{"topic": "/scan", "picture": False, "camera": False}]}]
     simulator.run(0.1)
-    sights.show()
+    views.show()
     ((index, t, kind, content),) = page.sensed
     assert (index, t, kind) == (0, pytest.approx(0.1), POINTS)
     found = xyz(content)
@@ -109,49 +109,49 @@ def test_the_page_gets_what_the_laser_met(shown) -> None:
     assert off.std() < 1e-4  # all as far from the axis of a cylinder as its radius
 
 
-def test_what_no_page_wants_is_not_looked_at(shown) -> None:
-    simulator, page, sights, _ = shown
+def test_a_sensor_without_a_subscribed_page_is_not_rendered(shown) -> None:
+    simulator, page, views, _ = shown
     page.wanted.clear()
     simulator.run(0.1)
-    assert sights.show() == 0.0
+    assert views.show() == 0.0
     assert not page.sensed
     assert not simulator.surroundings.is_used
 
 
-def test_there_is_time_between_two_looks(shown) -> None:
-    simulator, page, sights, now = shown
+def test_a_sensor_view_is_updated_at_most_ten_times_a_second(shown) -> None:
+    simulator, page, views, now = shown
     for _ in range(100):
         simulator.run(0.01)
-        sights.show()
+        views.show()
         now[0] += 0.01
     assert 9 <= len(page.sensed) <= 11
 
 
-def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.MonkeyPatch) -> None:
-    page, looks = Page(), []
+def test_all_topics_of_one_camera_share_one_small_rendered_image(monkeypatch: pytest.MonkeyPatch) -> None:
+    page, widths = Page(), []
     simulator = Simulator("seven_dof_arm_with_rgbd", note=lambda _: None)
-    sights = SensorViews(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
-    assert sights.find()
+    views = SensorViews(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
+    assert views.find()
     names = [each["topic"] for each in page.declared[0]["sensors"]]
-    look = Imager.look
+    capture = Imager.capture
     monkeypatch.setattr(
-        Imager, "look", lambda self, *g, **k: looks.append(self.optics.lens.width) or look(self, *g, **k)
+        Imager, "capture", lambda self, *g, **k: widths.append(self.optics.lens.width) or capture(self, *g, **k)
     )
     simulator.run(0.2)
-    sights.show()
+    views.show()
     assert [names[index] for index, *_ in page.sensed] == names[:3]
     assert [kind for _, _, kind, _ in page.sensed] == [PICTURE, PICTURE, COLORED]
-    assert looks == [320]
+    assert widths == [320]
     for *_, jpeg in page.sensed[:2]:
         with Image.open(io.BytesIO(jpeg)) as found:
             assert found.size == (320, 240)
     page.hub.subscribed_keys = frozenset({f"{ENLARGED}{names[0]}"})  # until the page reduces it again
     simulator.run(0.2)
-    sights._free = float("-inf")
-    for view in sights._views:
+    views._free = float("-inf")
+    for view in views._views:
         view.due = 0.0
-    sights.show()
-    assert looks == [320, 800]
+    views.show()
+    assert widths == [320, 800]
     with Image.open(io.BytesIO(page.sensed[3][3])) as found:
         assert found.size == (800, 600)
     whole = simulator.bus.latest(names[0])

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.meshes.loader import MeshLoader
-from urdfkit.meshes.textures import Beside, read_texture
+from urdfkit.meshes.textures import SideFiles, read_texture
 
 
 def chunk(kind: bytes, content: bytes) -> bytes:
@@ -41,7 +41,7 @@ def test_an_invalid_image_is_one_documented_error(tmp_path: Path, content: bytes
 @pytest.mark.parametrize("name", ["a\0.png", "a\0.mtl", "x" * 300 + ".png", "x" * 300 + ".mtl"])
 def test_a_name_that_no_file_has_is_missing(tmp_path: Path, name: str) -> None:
     with pytest.raises(KeyError):
-        Beside(tmp_path / "a.obj", 100)[name]
+        SideFiles(tmp_path / "a.obj", 100)[name]
     path = tmp_path / "a.obj"
     path.write_text(f"mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     assert len(MeshLoader().load(path).faces) == 1

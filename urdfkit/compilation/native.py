@@ -218,15 +218,15 @@ def _loaded(content: bytes) -> NativeFunction:
     return NativeFunction(memory.get_function_address(ENTRY), found["arrays"], memory)
 
 
-def cache_folders(beside: Path) -> tuple[Path, ...]:
+def cache_folders(sources: Path) -> tuple[Path, ...]:
     """Return the folders for machine code: that of numba's setting, else next to the sources, and that of the user."""
     if setting := os.environ.get("NUMBA_CACHE_DIR"):
         return (Path(setting) / "urdfkit",)
     with suppress(RuntimeError):  # no home folder
         place = os.environ.get("XDG_CACHE_HOME", "")
         user = Path(place) if Path(place).is_absolute() else Path.home() / ".cache"
-        return beside / "__pycache__", user / "urdfkit" / "kernels"
-    return (beside / "__pycache__",)
+        return sources / "__pycache__", user / "urdfkit" / "kernels"
+    return (sources / "__pycache__",)
 
 
 def write_native(code: NativeCode, dispatcher: Any, *, arrays: int) -> NativeFunction | None:

@@ -130,7 +130,7 @@ ROBOT: tuple[Row, ...] = (
     ("mesh", "geometry.mesh_of_other_link", "MeshOfOtherLink"),
     ("mesh", "geometry.mesh_scale_suspect", "MeshScaleSuspect"),
     ("box cylinder sphere capsule", "geometry.size_in_other_unit", "SizeInOtherUnit"),
-    ("inertia", "geometry.shapes_apart", "ShapesApart"),
+    ("inertia", "geometry.shape_detached", "ShapeDetached"),
     ("collision", "geometry.collision_unlike_visual", "CollisionUnlikeVisual"),
     ("mesh", "geometry.mesh_format_unsupported", "MeshFormatUnsupported"),
     ("mesh", "geometry.mesh_corrupt", "MeshCorrupt"),

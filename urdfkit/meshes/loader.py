@@ -33,7 +33,7 @@ from urdfkit.meshes.collada_effects import plain_effects
 from urdfkit.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
 from urdfkit.meshes.simplification import CHUNK, MOST_TRIANGLES, clustered, simplified
 from urdfkit.meshes.stl import corners_of
-from urdfkit.meshes.textures import Beside, Texture, is_as_read
+from urdfkit.meshes.textures import SideFiles, Texture, is_as_read
 from urdfkit.meshes.triangle_mesh import TriMesh, unique_rows
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
@@ -101,13 +101,13 @@ class MeshLoader:
             message = f"has an unsupported format{near}{' Supported' if near else '; supported'}: {' '.join(FORMATS)}"
             raise MeshError(path, message, kind="format")
         content = _read(path)
-        side_files = b"".join(_side_files(path, content))
+        materials = b"".join(_material_libraries(path, content))
         is_stl = path.suffix.lower() == ".stl"
-        beside = str(path.parent) if side_files or (not is_stl and _PULLS.search(content)) else ""
-        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside, places)
+        folder = str(path.parent) if materials or (not is_stl and _PULLS.search(content)) else ""
+        key = (hashlib.sha256(content + materials).hexdigest(), path.suffix.lower(), scale, folder, places)
         cached = self._cached.get(key)
         if cached is None or not is_as_read(cached[1]):
-            files = Beside(path, MAX_BYTES)
+            files = SideFiles(path, MAX_BYTES)
             mesh = _parse(path, content, scale, files, places, self._is_for_screen)
             cached = self._cached[key] = simplified(mesh) if self._is_for_screen else mesh, files.read
         return cached[0]
@@ -154,17 +154,19 @@ def _fault(suffix: str, content: bytes) -> str:
     return wrong_format(content, suffix) if other_format(content) else f"is truncated: {size} bytes instead of {wanted}"
 
 
-def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
+def _material_libraries(path: Path, content: bytes) -> Iterator[bytes]:
     """Yield the material libraries of an OBJ file, which contain its colours."""
     if path.suffix.lower() == ".obj":
         for name in re.findall(rb"^\s*mtllib[ \t]+(.+?)\s*$", content, re.MULTILINE):
             try:
-                yield Beside(path, MAX_BYTES)[name.decode(errors="replace")]
+                yield SideFiles(path, MAX_BYTES)[name.decode(errors="replace")]
             except KeyError:
                 continue
 
 
-def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bool, is_for_screen: bool) -> TriMesh:
+def _parse(
+    path: Path, content: bytes, scale: Vector, side_files: SideFiles, places: bool, is_for_screen: bool
+) -> TriMesh:
     if path.suffix.lower() == ".stl" and (corners := corners_of(content)) is not None and not places:
         read = _of_many_corners if is_for_screen and len(corners) > MOST_TRIANGLES else _of_corners
         return read(path, corners, np.array(scale, dtype=float))
@@ -178,14 +180,14 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
             warnings.simplefilter("ignore")
             logging.getLogger("trimesh").setLevel(logging.CRITICAL)
             plain = plain_effects(content) if suffix == ".dae" else content
-            scene = trimesh.load_scene(io.BytesIO(plain), file_type=suffix[1:], resolver=beside, process=False)
+            scene = trimesh.load_scene(io.BytesIO(plain), file_type=suffix[1:], resolver=side_files, process=False)
             factor = metres_per_unit(content) if suffix == ".dae" else 1.0
             mesh = _merge(path, list(_parts(scene)), np.array(scale, dtype=float) * factor, places)
     except ResourceError:
         raise
     except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
         raise MeshError(path, f"cannot be read: {reading_fault(suffix, content)}") from error
-    missing, broken = tuple(dict.fromkeys(beside.missing)), tuple(dict.fromkeys(beside.broken))
+    missing, broken = tuple(dict.fromkeys(side_files.missing)), tuple(dict.fromkeys(side_files.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh
 
 

@@ -108,7 +108,7 @@ def _pixels(picture: Any) -> NDArray[np.uint8]:
         return np.array(picture.convert("RGBA"))
 
 
-class Beside(dict[str, bytes]):
+class SideFiles(dict[str, bytes]):
     """The files that a mesh may refer to: materials and buffers below its folder, images as `places` yields them.
 
     Args:

@@ -137,11 +137,11 @@ when = { colour = ["blue"] }
 [[word]]
 name = "tone"
 by = "colour"
-says = { red = "warm", blue = "cold, @depth@" }
+values = { red = "warm", blue = "cold, @depth@" }
 [[word]]
 name = "bone"
 by = "part"
-says = { arm = "ulna", leg = "femur" }
+values = { arm = "ulna", leg = "femur" }
 [[check]]
 holds = "depth < 3"
 otherwise = "too deep"
@@ -208,11 +208,11 @@ def test_facts_and_words_that_are_lists(small_template):
             [[word]]
             name = "part"
             by = "special"
-            says = { no = [], yes = ["arm", "@name@ hand"] }
+            values = { no = [], yes = ["arm", "@name@ hand"] }
             [[word]]
             name = "thrice"
             by = "special"
-            says = { no = "none", yes = "= 3*size/7" }
+            values = { no = "none", yes = "= 3*size/7" }
             """
         )
     template = load_template(small_template)

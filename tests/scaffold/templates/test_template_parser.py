@@ -22,7 +22,7 @@ any = [{ colour = ["red"] }]
 [[word]]
 name = "tone"
 by = "colour"
-says = { red = "warm", blue = "cold" }
+values = { red = "warm", blue = "cold" }
 
 [[check]]
 otherwise = "no"
@@ -92,7 +92,7 @@ def test_errors_have_their_line(tmp_path, old, new, message):
         ('default_for = { colour = { red = "= a.b" } }', "14: cannot compute `a.b` in `a.b`"),
         ('[[check]]\nholds = "width"\notherwise = "no"', "15: `width` is not a comparison of two values"),
         ('[[check]]\nholds = "widht < 2"\notherwise = "no"', "15: no earlier question `widht`; did you mean `width`?"),
-        ('[[word]]\nname = "w"\nby = "colour"\nsays = { red = "= 2**3" }', "17: cannot compute `2 ** 3` in `2**3`"),
+        ('[[word]]\nname = "w"\nby = "colour"\nvalues = { red = "= 2**3" }', "17: cannot compute `2 ** 3` in `2**3`"),
     ],
 )
 def test_sums_have_their_line(tmp_path, more, message):

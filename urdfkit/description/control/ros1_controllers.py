@@ -150,9 +150,9 @@ def packages_around(description: Path) -> tuple[list[Path], list[Path]]:
     for ending in _ENDINGS:
         stem = stem.removesuffix(ending)
     try:
-        beside = sorted(own.parent.iterdir())[:_MAX_PACKAGES]
+        siblings = sorted(own.parent.iterdir())[:_MAX_PACKAGES]
     except OSError:
-        beside = []
-    others = [folder for folder in beside if folder != own and (folder / "package.xml").is_file()]
+        siblings = []
+    others = [folder for folder in siblings if folder != own and (folder / "package.xml").is_file()]
     near = [folder for folder in others if folder.name.startswith(stem) or stem.startswith(folder.name)]
     return [own, *near], [folder for folder in others if folder not in near]

@@ -179,10 +179,10 @@ class _Causes:
         files = self._model.neighbouring_macros.get(name, [])
         if len(files) != 1:
             return None
-        beside = self._folders.get(files[0].parent.resolve(), [])
-        if len(beside) < 2:
+        of_folder = self._folders.get(files[0].parent.resolve(), [])
+        if len(of_folder) < 2:
             return None
-        place = beside[-1].document.span_of(beside[-1].tag)
+        place = of_folder[-1].document.span_of(of_folder[-1].tag)
         return _Cause(place, f"include {files[0].name}, which defines `{name}`")
 
     @cached_property

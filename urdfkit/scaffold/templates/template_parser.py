@@ -35,9 +35,9 @@ _KEYS: dict[str, dict[str, str]] = {
         **dict.fromkeys(("choices", "suffixes"), _TEXTS),
         **dict.fromkeys(("when", "default_for", "called"), _TABLE),
         "range": _NUMBERS,
-        "ask": _FLAG,
+        "interactive": _FLAG,
     },
-    "word": {"name": _TEXT, "by": _TEXT, "says": _TABLE},
+    "word": {"name": _TEXT, "by": _TEXT, "values": _TABLE},
     "fact": {"name": _TEXT, "any": _TABLES},
     "check": {"holds": _TEXT, "otherwise": _TEXT, "when": _TABLE},
     "layer": {"folder": _TEXT, "into": _TEXTS, "when": _TABLE, "append": _FLAG, "spare": _FLAG},
@@ -48,7 +48,7 @@ _KEYS: dict[str, dict[str, str]] = {
 _REQUIRED = {
     "": ("summary", "layer"),
     "question": ("name", "prompt", "kind"),
-    "word": ("name", "by", "says"),
+    "word": ("name", "by", "values"),
     "fact": ("name", "any"),
     "check": ("otherwise",),
     "layer": ("folder",),
@@ -147,7 +147,6 @@ class _TemplateReader:
             self._error("question", index, "kind", f"unknown kind of question `{entry['kind']}`{near}")
         when = self._when("question", index, entry)
         values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()}
-        values["interactive"] = values.pop("ask", True)
         question = Question(**values | {"when": when, "own_option": self._options.get(entry["name"], "")})
         if not re.fullmatch(r"[a-z][a-z0-9_]*", question.name):
             self._error("question", index, "name", f"`{question.name}` is not a valid placeholder: use a-z, 0-9 and _")
@@ -168,9 +167,9 @@ class _TemplateReader:
             self._error(
                 "word", index, "by", f"unknown question `{entry['by']}`{did_you_mean(entry['by'], self._values)}"
             )
-        for value in entry["says"].values():
-            self._computable("word", index, "says", value, named=False)
-        return Word(entry["name"], entry["by"], entry["says"])
+        for value in entry["values"].values():
+            self._computable("word", index, "values", value, named=False)
+        return Word(entry["name"], entry["by"], entry["values"])
 
     def _checked(self, index: int, entry: dict[str, Any], questions: list[Question]) -> Check:
         if entry.get("holds"):

@@ -110,14 +110,14 @@ def _data_files(
     elsewhere: dict[tuple[int, int], list[tuple[str, str, list[tuple[ast.expr, ast.expr]]]]] = {}
     for path, use in used.items():
         folder = path.rpartition("/")[0]
-        beside = [node for text, node, *_ in installed if folder and text.rpartition("/")[0] == folder]
+        of_folder = [node for text, node, *_ in installed if folder and text.rpartition("/")[0] == folder]
         matching = [(node, to) for text, node, _, to in installed if fnmatch.fnmatch(path, text.replace("**/", "*"))]
-        if not beside or misspelt or matching:
+        if not of_folder or misspelt or matching:
             if matching and use and is_named:
                 elsewhere.setdefault(place(source, matching[0][1]), []).append((path, use, matching))
             continue
-        left_out.setdefault(place(source, beside[0])[0], []).append((path, use))
-        ends[place(source, beside[0])[0]] = place(source, beside[0])[1]
+        left_out.setdefault(place(source, of_folder[0])[0], []).append((path, use))
+        ends[place(source, of_folder[0])[0]] = place(source, of_folder[0])[1]
     for start, paths in left_out.items():
         (path, use), others = paths[0], len(paths) - 1
         more = f" and {others} other file{'s' * (others > 1)} are" if others else " is"

@@ -64,7 +64,7 @@ class ToolFrameInsideBody(RobotRule):
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
         for joint, is_behind in tools_behind(model):
-            message = f"frame `{joint.child}` is beside link `{joint.parent}`, whose fingers are on another side"
+            message = f"frame `{joint.child}` is next to link `{joint.parent}`, whose fingers are on another side"
             if is_behind:
                 message = f"frame `{joint.child}` is behind link `{joint.parent}`, whose fingers are on the other side"
             place = joint.element.find("origin") or joint.element

@@ -66,7 +66,7 @@ class SceneSensor(Sensor):
         """Read the parameters of this kind of sensor, and fill `topics`."""
 
     @abstractmethod
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
         """Return the observation of a layout of the scene from a frame of shape (4, 4)."""
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
@@ -92,7 +92,7 @@ class SceneSensor(Sensor):
         layout = self._surroundings.layout()
         frame = self.viewpoint = matmul(layout.placement(self._robot, self._link), self._pose)
         with self._surroundings.lock:
-            seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
+            seen = self._observe(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
         return tuple(partial(self._build, message, lambda: seen) for message in self.messages())
 
     def measure(self, state: State, count: int) -> None:
@@ -107,7 +107,7 @@ class SceneSensor(Sensor):
         @cache
         def seen() -> Any:
             frame = self.viewpoint = matmul(layout.placement(self._robot, self._link), self._pose)
-            return self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
+            return self._observe(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
 
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:
             topic.offer_later(partial(self._build, message, seen), count=count)

@@ -8,11 +8,11 @@ const PROJECT = `
   vec4 first = modelViewMatrix * vec4(start, 1.0), second = modelViewMatrix * vec4(end, 1.0);
   vec4 mvPosition = mix(first, second, position.x);
   bool perspective = projectionMatrix[2][3] < 0.0;
-  vec3 sight = perspective ? mvPosition.xyz : vec3(0.0, 0.0, -1.0);
+  vec3 viewRay = perspective ? mvPosition.xyz : vec3(0.0, 0.0, -1.0);
   vec3 along = normalize(second.xyz - first.xyz + vec3(1e-9, 0.0, 0.0));
   float pixel = (perspective ? max(0.0, -mvPosition.z) : 1.0) * 2.0 / (projectionMatrix[1][1] * pixels);
   float reach = 0.5 * max(width, pixel);
-  mvPosition.xyz += reach * (normalize(cross(sight, along) + vec3(0.0, 1e-9, 0.0)) * position.y + along * (2.0 * position.x - 1.0));
+  mvPosition.xyz += reach * (normalize(cross(viewRay, along) + vec3(0.0, 1e-9, 0.0)) * position.y + along * (2.0 * position.x - 1.0));
   gl_Position = projectionMatrix * mvPosition;
   if (perspective) {
     vec4 ahead = projectionMatrix * vec4(mvPosition.xyz * (1.0 - ${LIFT}) - normalize(mvPosition.xyz) * 2.0 * reach, 1.0);

@@ -69,7 +69,7 @@ export function tools(page) {
     const sim = page.mode === "sim";
     const room = sim ? (page.drives === false ? STANDING : DRIVING) : 1;
     const box = page.scene.bounds();
-    const view = sim && !box.isEmpty() ? page.sight.clear(box, [-1, -0.55, 0.75], page.viewport.distance(box, room)) : { direction: [1, 0.75, 0.6], part: 1 };
+    const view = sim && !box.isEmpty() ? page.occlusion.clearDirection(box, [-1, -0.55, 0.75], page.viewport.distance(box, room)) : { direction: [1, 0.75, 0.6], part: 1 };
     const done = page.viewport.fit(box, direction === null ? null : view.direction, room * view.part);
     page.emit("fit", done);
     return done;

@@ -20,7 +20,7 @@ import { pick } from "../viewport/picking.js";
 import { reach } from "./reach_map.js";
 import { robot } from "./robot_model.js";
 import { selection } from "../page/selection_bar.js";
-import { sight } from "../viewport/initial_view.js";
+import { occlusion } from "../viewport/occlusion.js";
 import { tf } from "./frame_tree.js";
 import { steering } from "../viewport/keyboard_camera.js";
 import { theme } from "../page/theme.js";
@@ -28,6 +28,6 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, history, robot, sight, labels, joints, tree, inspector, layers, groundPlanes, loading, tf, reach, collisions, measure, findings, cameras, lightChoice, capture, ik, pick, steering, selection,
+  tools, history, robot, occlusion, labels, joints, tree, inspector, layers, groundPlanes, loading, tf, reach, collisions, measure, findings, cameras, lightChoice, capture, ik, pick, steering, selection,
   modes, theme, help,
 ];

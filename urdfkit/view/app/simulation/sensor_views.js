@@ -61,7 +61,7 @@ export class Sensors {
 }
 
 /** The view of one topic, with a checkbox. */
-class Sight {
+class SensorView {
   constructor(page, list, topic, { on }) {
     this.page = page;
     this.topic = topic;
@@ -70,7 +70,7 @@ class Sight {
     const { box, label } = check(topic, { checked: on, changed: (ticked) => this.tick(ticked) });
     this.box = box;
     this.waiting = h("p.quiet", { hidden: true }, this.awaited);
-    this.item = h("li.sight", {}, label, this.waiting);
+    this.item = h("li", {}, label, this.waiting);
     list.append(this.item);
   }
 
@@ -95,7 +95,7 @@ class Sight {
   }
 }
 
-class Points extends Sight {
+class Points extends SensorView {
   kinds = [POINTS, COLORED];
   get awaited() {
     return "Waiting for the first points";
@@ -139,7 +139,7 @@ class Points extends Sight {
   }
 }
 
-class Picture extends Sight {
+class Picture extends SensorView {
   kinds = [PICTURE];
   get awaited() {
     return "Waiting for the first image";

@@ -21,7 +21,7 @@ from urdfkit.messages.vision import DETECTIONS_2D, DETECTIONS_3D
 from urdfkit.scene import Shape
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.bounding_boxes import Box2D, Box3D, draw, full_box, space_box, visible_box
-from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Capture
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -51,13 +51,13 @@ def owner(shape: Shape) -> tuple[str, int]:
     return shape.body.partition("::")[0], shape.label
 
 
-def instances(sight: Sight) -> tuple[Numbers, Numbers]:
+def instances(capture: Capture) -> tuple[Numbers, Numbers]:
     """Return label and instance number of every pixel, zero for background; shape (height, width) each.
 
     Instances of a label are numbered from 1, in the order of the scene.
     """
-    table = np.array([*instances_of(sight.shapes), (0, 0)], dtype=np.int64)
-    return table[sight.picture.shapes, 0], table[sight.picture.shapes, 1]  # -1 selects the last row, background
+    table = np.array([*instances_of(capture.shapes), (0, 0)], dtype=np.int64)
+    return table[capture.picture.shapes, 0], table[capture.picture.shapes, 1]  # -1 selects the last row, background
 
 
 def instances_of(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
@@ -106,19 +106,19 @@ class GzSegmentationCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._colored, self._labels
 
-    def _colored(self, sight: Sight) -> Any:
-        labels, numbers = instances(sight)
-        return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._by_instance else labels), "rgb8")
+    def _colored(self, capture: Capture) -> Any:
+        labels, numbers = instances(capture)
+        return image(capture.t, self.frame, colors_of(labels + 256 * numbers if self._by_instance else labels), "rgb8")
 
-    def _labels(self, sight: Sight) -> Any:
+    def _labels(self, capture: Capture) -> Any:
         """Return the labels map: the label three times, or the low and high byte of the instance number and the label.
 
         Source: gz-rendering, Ogre2SegmentationMaterialSwitcher::ColorForVisual: red is the instance number
         modulo 256, green the instance number divided by 256, blue the label; instances are numbered from 1.
         """
-        labels, numbers = instances(sight)
+        labels, numbers = instances(capture)
         planes = (numbers % 256, numbers // 256, labels) if self._by_instance else (labels, labels, labels)
-        return image(sight.t, self.frame, np.stack(planes, axis=-1).astype(np.uint8), "rgb8")
+        return image(capture.t, self.frame, np.stack(planes, axis=-1).astype(np.uint8), "rgb8")
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,11 +126,11 @@ class Boxed:
     """Capture of a bounding-box camera.
 
     Attributes:
-        sight: capture of the camera.
+        capture: image of the camera with its data.
         boxes: boxes of the labelled objects in the picture, ordered by instance number and label.
     """
 
-    sight: Sight
+    capture: Capture
     boxes: tuple[Box2D | Box3D, ...]
 
 
@@ -159,30 +159,30 @@ class GzBoundingBoxCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._detections, self._drawn
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Boxed:
-        sight = super()._look(t, layout, frame, random)
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Boxed:
+        capture = super()._observe(t, layout, frame, random)
         table = self._surroundings.view(layout).table("visual", layout)
-        labels, numbers = instances(sight)
-        whole, pairs = labels + 256 * numbers, instances_of(sight.shapes)
+        labels, numbers = instances(capture)
+        whole, pairs = labels + 256 * numbers, instances_of(capture.shapes)
         boxes: list[Box2D | Box3D] = []
         for one in np.unique(whole[whole > 0]).tolist():
             label, shapes = one % 256, [k for k, each in enumerate(pairs) if each == (one % 256, one // 256)]
             if self._type in VISIBLE:
                 boxes.append(visible_box(label, whole == one))
             elif self._type in FULL:
-                boxes.append(full_box(label, table, shapes, sight.frame, self.optics.lens))
+                boxes.append(full_box(label, table, shapes, capture.frame, self.optics.lens))
             else:
-                boxes.append(space_box(label, table, shapes, sight.frame))
-        return Boxed(sight, tuple(boxes))
+                boxes.append(space_box(label, table, shapes, capture.frame))
+        return Boxed(capture, tuple(boxes))
 
     def _detections(self, boxed: Boxed) -> Any:
-        return detections(header(boxed.sight.t, self.frame), boxed.boxes, space=self._type in SPACE)
+        return detections(header(boxed.capture.t, self.frame), boxed.boxes, space=self._type in SPACE)
 
     def _drawn(self, boxed: Boxed) -> Any:
-        picture = boxed.sight.picture.rgb.copy()
+        picture = boxed.capture.picture.rgb.copy()
         for box in boxed.boxes:
             draw(picture, box, self.optics.lens, LINE)
-        return image(boxed.sight.t, self.frame, picture, "rgb8")
+        return image(boxed.capture.t, self.frame, picture, "rgb8")
 
 
 def detections(head: Any, boxes: Sequence[Box2D | Box3D], *, space: bool) -> Any:

@@ -44,8 +44,8 @@ MOST_LOST = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Sight:
-    """Capture of a camera.
+class Capture:
+    """Image of a camera with the data for its messages.
 
     Attributes:
         t: time stamp [s].
@@ -88,14 +88,16 @@ class Imager:
         """Return the CameraInfo; renders nothing."""
         return camera_info(t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline)
 
-    def look(self, t: float, view: ImageRenderer, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
+    def capture(
+        self, t: float, view: ImageRenderer, frame: Array, random: np.random.Generator, *, deep: bool
+    ) -> Capture:
         """Return the capture with the sensor at `frame`; `deep` adds depths and shape indices."""
         optics, placed = self.optics, matmul(frame, self.pose)
         picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples, deep=deep)
         if self.noise:
             noisy = self.noise.on(picture.rgb / 255.0, random)
             picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))
-        return Sight(t, picture, view.table.shapes, placed)
+        return Capture(t, picture, view.table.shapes, placed)
 
 
 class Camera(SceneSensor):
@@ -145,13 +147,13 @@ class Camera(SceneSensor):
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         """Read the parameters of this plugin and fill `topics`."""
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
         renderer = self._surroundings.view(layout).renderer(layout)
-        return self.imagers[0].look(t, renderer, frame, random, deep=self.deep)
+        return self.imagers[0].capture(t, renderer, frame, random, deep=self.deep)
 
-    def message(self, sight: Sight) -> Any:
+    def message(self, capture: Capture) -> Any:
         """Return the image of the first camera."""
-        return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
+        return image(capture.t, self.frame, capture.picture.rgb, self.optics.encoding)
 
     def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics; by default `info`."""

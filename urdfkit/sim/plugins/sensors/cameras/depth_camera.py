@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Capture
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, depth_image
 from urdfkit.sim.plugins.sensors.cameras.depth_points import points, within
 from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD_2
@@ -43,14 +43,14 @@ class DepthCamera(Camera):
         """Return the functions that build the messages of the other topics."""
         return self.info, self.info
 
-    def _deep(self, sight: Sight) -> NDArray[np.float32]:
-        return within(sight.picture.depth, self._min_depth, self._max_depth)
+    def _deep(self, capture: Capture) -> NDArray[np.float32]:
+        return within(capture.picture.depth, self._min_depth, self._max_depth)
 
-    def _depth(self, sight: Sight) -> Any:
-        return depth_image(sight.t, self.frame, self._deep(sight), millimetres=self._millimetres)
+    def _depth(self, capture: Capture) -> Any:
+        return depth_image(capture.t, self.frame, self._deep(capture), millimetres=self._millimetres)
 
-    def _points(self, sight: Sight) -> Any:
-        return points(sight.t, self.frame, self.optics.lens, self._deep(sight), sight.picture.rgb)
+    def _points(self, capture: Capture) -> Any:
+        return points(capture.t, self.frame, self.optics.lens, self._deep(capture), capture.picture.rgb)
 
 
 class OpenniKinect(DepthCamera):
@@ -76,12 +76,12 @@ class GzDepthCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._depth, self._points
 
-    def _depth(self, sight: Sight) -> Any:
-        return depth_image(sight.t, self.frame, sight.picture.depth)
+    def _depth(self, capture: Capture) -> Any:
+        return depth_image(capture.t, self.frame, capture.picture.depth)
 
-    def _points(self, sight: Sight) -> Any:
-        picture = sight.picture
-        return points(sight.t, self.sensor_frame, self.optics.lens, picture.depth, picture.rgb, optical=False)
+    def _points(self, capture: Capture) -> Any:
+        picture = capture.picture
+        return points(capture.t, self.sensor_frame, self.optics.lens, picture.depth, picture.rgb, optical=False)
 
 
 class GzRgbdCamera(GzDepthCamera):

@@ -8,7 +8,7 @@ import numpy as np
 
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.cameras.camera import SEVERAL, Camera, Sight, sensor_type
+from urdfkit.sim.plugins.sensors.cameras.camera import SEVERAL, Camera, Capture, sensor_type
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, depth_image
 from urdfkit.sim.plugins.sensors.cameras.depth_points import points, within
 from urdfkit.sim.plugins.sensors.cameras.multicamera import MultiCamera
@@ -39,12 +39,12 @@ class RosCamera(MultiCamera):
         def topic(type: str, name: str, meaning: str = "") -> Any:
             return setup.bus.advertise(self.topic_of(read, topics, meaning, name), type)
 
-        looked = [topic(IMAGE, "image_raw", "image_topic")]
+        images = [topic(IMAGE, "image_raw", "image_topic")]
         plain = [topic(CAMERA_INFO, "camera_info", "info_topic")]
         if self.deep:
-            looked += [topic(IMAGE, "depth/image_raw"), topic(POINT_CLOUD_2, "points")]
+            images += [topic(IMAGE, "depth/image_raw"), topic(POINT_CLOUD_2, "points")]
             plain.append(topic(CAMERA_INFO, "depth/camera_info"))
-        self.topics = (*looked, *plain)
+        self.topics = (*images, *plain)
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the messages of the first topics in `topics`."""
@@ -58,15 +58,15 @@ class RosCamera(MultiCamera):
             return super().other_messages()
         return (self.info, self.info) if self.deep else (self.info,)
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
-        look = super()._look if self._several else partial(Camera._look, self)
-        return look(t, layout, frame, random)
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+        observe = super()._observe if self._several else partial(Camera._observe, self)
+        return observe(t, layout, frame, random)
 
-    def _depth(self, sight: Sight) -> Any:
-        depth = sight.picture.depth
+    def _depth(self, capture: Capture) -> Any:
+        depth = capture.picture.depth
         deep = np.where(depth >= self._max_depth, np.inf, np.where(depth <= self._min_depth, -np.inf, depth))
-        return depth_image(sight.t, self.frame, deep.astype(np.float32))
+        return depth_image(capture.t, self.frame, deep.astype(np.float32))
 
-    def _points(self, sight: Sight) -> Any:
-        deep = within(sight.picture.depth, self._min_depth, self._max_depth)
-        return points(sight.t, self.frame, self.optics.lens, deep, sight.picture.rgb)
+    def _points(self, capture: Capture) -> Any:
+        deep = within(capture.picture.depth, self._min_depth, self._max_depth)
+        return points(capture.t, self.frame, self.optics.lens, deep, capture.picture.rgb)

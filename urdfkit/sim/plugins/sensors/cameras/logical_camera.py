@@ -19,7 +19,7 @@ from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.quaternion import from_matrix
 
-Sight = tuple[float, Array, list[tuple[str, Array]]]
+Observation = tuple[float, Array, list[tuple[str, Array]]]
 """Time [s], placement of the camera, shape (4, 4), and name and placement of each model in the world."""
 
 
@@ -40,7 +40,7 @@ class GzLogicalCamera(SceneSensor):
         self._aspect = number(inside, "aspect_ratio", 1.0, least=1e-9)
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), GZ_LOGICAL_IMAGE),)
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Sight:
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Observation:
         seen: list[tuple[str, Array]] = []
         names = [model.name for model in layout.world.models]
         for name in names:
@@ -62,9 +62,9 @@ class GzLogicalCamera(SceneSensor):
             self._near <= x <= self._far and abs(y) <= x * self._across and abs(z) <= x * self._across / self._aspect
         )
 
-    def message(self, sight: Sight) -> Any:
+    def message(self, observation: Observation) -> Any:
         """Return the LogicalCameraImage of an observation."""
-        t, frame, seen = sight
+        t, frame, seen = observation
         model = message_type(GZ_LOGICAL_MODEL)
         models = [model(name, _pose(matmul(inverse_placement(frame), placement))) for name, placement in seen]
         return message_type(GZ_LOGICAL_IMAGE)(header(t, self.frame), _pose(frame), models)

@@ -14,13 +14,13 @@ import numpy as np
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Imager, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Capture, Imager
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 
-Looks = Callable[[int], Sight]
+Captures = Callable[[int], Capture]
 """Function that returns the capture of a camera by its index; each camera is rendered on its first call."""
 
 
@@ -53,15 +53,15 @@ class MultiCamera(Camera):
             return imager.name
         return next((side for side in ("left", "right") if side in imager.name), "")
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Looks:
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Captures:
         @cache
-        def look(number: int) -> Sight:
+        def capture_of(number: int) -> Capture:
             # Each camera has its own random stream: subscribers of other cameras do not change its noise.
             own = np.random.Generator(random.bit_generator.jumped(number))  # type: ignore[attr-defined]
             renderer = self._surroundings.view(layout).renderer(layout)
-            return self.imagers[number].look(t, renderer, frame, own, deep=False)
+            return self.imagers[number].capture(t, renderer, frame, own, deep=False)
 
-        return look
+        return capture_of
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the image of each camera."""
@@ -71,6 +71,6 @@ class MultiCamera(Camera):
         """Return the functions that build the CameraInfo of each camera."""
         return tuple(partial(imager.info, self.frame) for imager in self.imagers)
 
-    def _image_of(self, number: int, looks: Looks) -> Any:
-        sight = looks(number)
-        return image(sight.t, self.frame, sight.picture.rgb, self.imagers[number].optics.encoding)
+    def _image_of(self, number: int, captures: Captures) -> Any:
+        capture = captures(number)
+        return image(capture.t, self.frame, capture.picture.rgb, self.imagers[number].optics.encoding)

@@ -62,7 +62,7 @@ class Lidar(SceneSensor):
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         """Read the parameters of this plugin and fill `topics`."""
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Reading:
+    def _observe(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Reading:
         table, scan = self._surroundings.view(layout).table(self._role, layout), self.scan
         hits = table.cast((0.0, 0.0, 0.0), self._directions, near=scan.range_min, far=scan.range_max, frame=frame)
         ranges = hits.distances

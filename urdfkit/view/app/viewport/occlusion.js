@@ -1,4 +1,4 @@
-// The initial view, from a direction in which nothing hides the robot; obstacles that hide it later become transparent.
+// Objects that hide the robot: the initial view avoids them, and objects that hide it later become transparent.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
@@ -7,14 +7,14 @@ const TURNS = [0, 30, -30, 60, -60, 90, -90, 150, -150, 180]; // degrees from th
 const RISES = [0, 0.6, 1.6]; // added elevation
 const NEAR = 0.35; // of the robot's radius: nearer objects do not count as obstacles
 
-export class Sight {
+export class Occlusion {
   constructor(page) {
-    Object.assign(this, { page, scene: page.scene, viewport: page.viewport, ray: new THREE.Raycaster(), looked: 0 });
+    Object.assign(this, { page, scene: page.scene, viewport: page.viewport, ray: new THREE.Raycaster() });
     page.on("drawn", () => this.#soon());
   }
 
   /** Find a direction from which a box is visible. @param wanted preferred direction from the box to the camera, z up @returns the direction, and the part of the distance */
-  clear(box, wanted, distance) {
+  clearDirection(box, wanted, distance) {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const points = this.#points(box);
     const others = this.#others(null);
@@ -55,11 +55,11 @@ export class Sight {
 
   #soon() {
     if (this.page.mode !== "sim" || this.timer) return;
-    this.timer = setTimeout(() => ((this.timer = null), this.look()), OFTEN);
+    this.timer = setTimeout(() => ((this.timer = null), this.fadeObstacles()), OFTEN);
   }
 
   /** Make the objects that hide the robot from the camera transparent. */
-  look() {
+  fadeObstacles() {
     const other = this.page.followed === undefined ? null : this.page.driven;
     const node = this.scene.nodes[this.page.followed ?? this.page.model?.root ?? 0];
     if (!node || this.page.cameras.way === "first") return this.scene.fade(new Set());
@@ -87,7 +87,7 @@ function turned([x, y, z], degrees, rise) {
   return [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle), z + rise * flat];
 }
 
-export function sight(page) {
-  page.sight = new Sight(page);
-  page.expose("sight", page.sight);
+export function occlusion(page) {
+  page.occlusion = new Occlusion(page);
+  page.expose("occlusion", page.occlusion);
 }

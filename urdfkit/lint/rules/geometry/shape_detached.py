@@ -1,4 +1,4 @@
-"""G617 shapes-apart."""
+"""G617 shape-detached."""
 
 from math import dist
 
@@ -15,7 +15,7 @@ _MAX_HULL = 100.0
 """Ratio to the reach of the other shapes from which a sphere is a wrong unit, not a safety hull."""
 
 
-class ShapesApart(RobotRule):
+class ShapeDetached(RobotRule):
     """A shape of a link is far from the other shapes of the link.
 
     ## What it does
@@ -49,7 +49,7 @@ class ShapesApart(RobotRule):
     """
 
     code = "G617"
-    name = "shapes-apart"
+    name = "shape-detached"
     severity = "warning"
     checks_each_alone = True
 
