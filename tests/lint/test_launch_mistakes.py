@@ -589,7 +589,7 @@ RIGHT = {
     "driven": "driver",
     "opaque": ", OpaqueFunction(function=more)",
 }
-NO_RETURN = "the function `more` of an OpaqueFunction does not return its actions; write `return` before the list"
+NO_RETURN = "the function `more` of an OpaqueFunction does not return its actions; return the list of actions"
 UNDECLARED = "list of arguments `arguments` is not added to the launch description: the arguments are not declared"
 MISTAKES = [
     ("more", "[Node(package='joy', executable='joy_node')]", 10, NO_RETURN),

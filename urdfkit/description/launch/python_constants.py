@@ -172,6 +172,14 @@ def name_of(node: ast.expr) -> str:
     return str(getattr(node, "attr", getattr(node, "id", "")))
 
 
+def unparsed(node: ast.AST) -> str:
+    """Return the source text of a node in a normal form; empty for an expression that is nested too deeply."""
+    try:
+        return ast.unparse(node)
+    except RecursionError:  # hundreds of chained attributes
+        return ""
+
+
 def _is_plain(value: ast.FormattedValue) -> bool:
     """Return whether an f-string inserts a text as it is."""
     return value.conversion in (-1, 115) and value.format_spec is None

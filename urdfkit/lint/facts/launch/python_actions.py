@@ -6,7 +6,7 @@ import ast
 import re
 import sys
 
-from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
+from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed, unparsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
@@ -72,8 +72,8 @@ class _PythonActions:
         keywords = {word.arg: word.value for word in node.keywords if word.arg is not None}
         first = node.args[0] if node.args else None
         if kind in (*_DECLARATIONS, "LaunchConfiguration", "SetLaunchConfiguration"):
-            written = first or keywords.get("name") or keywords.get("variable_name")
-            name = self._named(written) if written is not None else None
+            argument = first or keywords.get("name") or keywords.get("variable_name")
+            name = self._named(argument) if argument is not None else None
             if kind in _DECLARATIONS:
                 if name is None:
                     found.assigned.add(COMPUTED)
@@ -167,7 +167,7 @@ class _PythonActions:
             first = self._constants.assigned.get(first.id) or first
         parts = first.elts if isinstance(first, (ast.List, ast.Tuple)) else [first]
         texts = [self._named(part) for part in parts]
-        if not any("xacro" in text.name for text in texts if text is not None) and "xacro" not in ast.unparse(first):
+        if not any("xacro" in text.name for text in texts if text is not None) and "xacro" not in unparsed(first):
             return
         passed = [
             Named(word[1], text.start + word.start(1))

@@ -1,5 +1,6 @@
 """Names of the Python packages that launch files import: their modules, classes and keywords."""
 
+import ast
 from collections.abc import Iterable
 
 from urdfkit.defect_message import Suggestion
@@ -68,12 +69,15 @@ _KEYWORDS = {
     "ComposableNode": "condition extra_arguments name namespace package parameters plugin remappings",
     "ComposableNodeContainer": f"{_NODE} composable_node_descriptions",
     "DeclareLaunchArgument": "choices condition default_value description name",
+    "EmitEvent": "condition event",
     "ExecuteProcess": _PROCESS,
+    "FindExecutable": "name",
     "FindPackageShare": "package",
     "GroupAction": "actions condition forwarding launch_configurations scoped",
     "IncludeLaunchDescription": "condition launch_arguments launch_description_source",
     "LaunchConfiguration": "default variable_name",
     "LifecycleNode": f"{_NODE} autostart",
+    "LogInfo": "condition msg",
     "LoadComposableNodes": "composable_node_descriptions condition target_container",
     "Node": _NODE,
     "OnExecutionComplete": "handle_once on_completion target_action",
@@ -85,6 +89,7 @@ _KEYWORDS = {
     "ParameterFile": "allow_substs param_file",
     "ParameterValue": "value value_type",
     "PushRosNamespace": "condition namespace",
+    "RewrittenYaml": "convert_types key_rewrites param_rewrites root_key source_file value_rewrites",
     "RegisterEventHandler": "condition event_handler",
     "SetEnvironmentVariable": "condition name value",
     "SetParameter": "condition name value",
@@ -92,6 +97,27 @@ _KEYWORDS = {
     "TimerAction": "actions cancel_on_shutdown condition period",
 }
 """Class → keywords (Galactic to Rolling)."""
+
+_REQUIRED = {
+    "ComposableNode": "*package plugin",
+    "ComposableNodeContainer": "*executable name namespace",
+    "EmitEvent": "*event",
+    "ExecuteProcess": "*cmd",
+    "FindExecutable": "*name",
+    "IncludeLaunchDescription": "launch_description_source",
+    "LifecycleNode": "*executable name namespace",
+    "LoadComposableNodes": "*composable_node_descriptions target_container",
+    "LogInfo": "*msg",
+    "Node": "*executable",
+    "OpaqueFunction": "*function",
+    "RegisterEventHandler": "event_handler",
+    "RewrittenYaml": "source_file param_rewrites",
+    "SetEnvironmentVariable": "name value",
+    "SetParameter": "name value",
+    "SetRemap": "src dst",
+    "TimerAction": "*period actions",
+}
+"""Class → arguments that a call needs, in order; after a star, arguments that only a keyword passes."""
 
 _OF_XML = {
     "args": "arguments",
@@ -161,6 +187,20 @@ def wrong_keyword(kind: str, word: str) -> str | None:
         return None
     meant = _OF_XML.get(word) or OF_FOXY.get(word) or _OF_OTHER_EVENT.get(word)
     return meant if meant in valid else nearest(word, valid, cutoff=0.75)
+
+
+def incomplete_call(kind: str, call: ast.Call) -> tuple[ast.expr, str] | None:
+    """Return the place and message for a call that passes an argument without its keyword, or lacks one."""
+    required = _REQUIRED.get(kind, "")
+    names, words = required.lstrip("*").split(), {word.arg for word in call.keywords}
+    if not names or None in words or any(isinstance(each, ast.Starred) for each in call.args):
+        return None
+    if required.startswith("*") and call.args:
+        return call.args[0], f"`{kind}` accepts this argument by its keyword only; write `{names[0]}=` before it"
+    lacking = [name for name in names[len(call.args) :] if name not in words]
+    if not lacking or any(word not in _KEYWORDS[kind].split() for word in words if word is not None):
+        return None
+    return call.func, f"`{kind}` needs the argument `{lacking[0]}`"
 
 
 def differs_by_a_letter(name: str, other: str) -> bool:

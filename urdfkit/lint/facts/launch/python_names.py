@@ -10,7 +10,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.model.model import Model
 
 _OF_MODULES = frozenset(("__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__class__"))
-_ROOTS = frozenset(("launch", "launch_ros"))
+_ROOTS = frozenset(("launch", "launch_ros", "nav2_common"))
 
 
 def python_files(model: Model) -> Iterator[tuple[Source, ast.Module]]:

@@ -14,9 +14,10 @@ from collections.abc import Iterable, Iterator
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import did_you_mean
 from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.python_api import incomplete_call
 from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
+from urdfkit.lint.facts.lifecycle_transitions import unknown_constant, wrong_transition
 
 Defects = Iterator[tuple[ast.expr, str]]
 
@@ -40,6 +41,7 @@ _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer", "ComposableNode")
 _ONLY_FIRST = {
     "Command": "`Command` accepts one argument; write its words in one list",
     "DeclareLaunchArgument": "write `default_value=` before this argument",
+    "EnvironmentVariable": "write `default_value=` before this argument",
     "LaunchConfiguration": "write `default=` before this argument",
     "PathJoinSubstitution": "`PathJoinSubstitution` accepts one argument; write the parts in one list",
 }
@@ -62,6 +64,12 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             found = _truth(node, node.args[0], reader)
         elif isinstance(node, ast.Call) and name_of(node.func) == "join":
             found = _absolute_parts(node.args, reader)
+        elif isinstance(node, ast.Call) and name_of(node.func) == "perform":
+            found = _without_context(node, reader)
+        elif isinstance(node, (ast.BinOp, ast.JoinedStr)):
+            found = _as_text(node, reader)
+        elif isinstance(node, ast.Attribute):
+            found = unknown_constant(node)
         else:
             continue
         yield from ((place(source, at), message) for at, message in found)
@@ -82,7 +90,9 @@ def _is_text(node: ast.expr) -> bool:
 
 def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     words = {word.arg: word.value for word in call.keywords if word.arg is not None}
-    if kind in _ONLY_FIRST and len(call.args) > 1:
+    if (incomplete := incomplete_call(kind, call)) is not None:
+        yield incomplete
+    elif kind in _ONLY_FIRST and len(call.args) > 1:
         yield call.args[1], _ONLY_FIRST[kind]
     elif kind == "PathJoinSubstitution":
         yield from _absolute_parts(reader.items(call.args[0]) if call.args else [], reader)
@@ -107,12 +117,37 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         if actions is not None and _called(actions, reader) in _ACTIONS:
             yield actions, f"`actions` of `{kind}` is not a list; write it in brackets"
     elif kind == "OnStateTransition":
-        yield from _transition(words, reader)
+        yield from wrong_transition(words, reader)
     elif kind == "LaunchDescription":
         if len(call.args) > 1:
             yield call.args[1], "`LaunchDescription` accepts one list of actions; join the lists with `+`"
         elif call.args and _called(call.args[0], reader) in _ACTIONS:
             yield call.args[0], "the argument of `LaunchDescription` is not a list; write it in brackets"
+
+
+_SUBSTITUTIONS = (
+    *("Command", "EnvironmentVariable", "FindExecutable", "FindPackageShare", "LaunchConfiguration"),
+    *("PathJoinSubstitution", "PythonExpression", "TextSubstitution", "ThisLaunchFileDir"),
+)
+
+
+def _without_context(call: ast.Call, reader: LaunchReader) -> Defects:
+    value = call.func.value if isinstance(call.func, ast.Attribute) and not (call.args or call.keywords) else None
+    if value is not None and _called(value, reader) in _SUBSTITUTIONS:
+        yield call.func, "`perform` needs the launch context; write `perform(context)`"
+
+
+def _as_text(node: ast.BinOp | ast.JoinedStr, reader: LaunchReader) -> Defects:
+    """Yield the substitutions that are added to a text or inserted into one, which has not got their value yet."""
+    if isinstance(node, ast.JoinedStr):
+        for part in (each.value for each in node.values if isinstance(each, ast.FormattedValue)):
+            if (kind := _called(part, reader)) in _SUBSTITUTIONS:
+                yield part, f"an f-string has no access to the value of a `{kind}`; write the parts in a list"
+    elif isinstance(node.op, ast.Add):
+        for text, part in ((node.left, node.right), (node.right, node.left)):
+            is_text = isinstance(text, (ast.Constant, ast.JoinedStr)) and (_is_text(text) or not _is_text(part))
+            if is_text and (kind := _called(part, reader)) in _SUBSTITUTIONS:
+                yield part, f"a text and a `{kind}` cannot be added; write both in a list"
 
 
 def _absolute_parts(parts: list[ast.expr], reader: LaunchReader) -> Defects:
@@ -134,29 +169,6 @@ def _of_command(call: ast.Call, kind: ast.expr | None, reader: LaunchReader) -> 
         yield call, "without `value_type`, the launch reads the output of the command as YAML; add `value_type=str`"
     elif isinstance(kind, ast.Name) and kind.id in ("bool", "int", "float", "list", "dict"):
         yield kind, f"the output of the command is a string, not a value of type `{kind.id}`; write `str`"
-
-
-_TRANSITIONS = {
-    **{"unconfigured": "configuring shuttingdown", "configuring": "inactive unconfigured errorprocessing"},
-    **{"inactive": "activating cleaningup shuttingdown", "cleaningup": "unconfigured inactive errorprocessing"},
-    **{"activating": "active inactive errorprocessing", "active": "deactivating shuttingdown errorprocessing"},
-    **{"deactivating": "inactive active errorprocessing", "shuttingdown": "finalized errorprocessing"},
-    **{"errorprocessing": "unconfigured finalized", "finalized": ""},
-}
-"""State of a lifecycle node → the states that follow (rcl_lifecycle/src/default_state_machine.c)."""
-
-
-def _transition(words: dict[str, ast.expr], reader: LaunchReader) -> Defects:
-    """Yield the states of an event handler that do not exist, or that do not follow each other."""
-    texts = {key: reader.text(words[key]) for key in ("start_state", "goal_state") if key in words}
-    for key, text in texts.items():
-        if text is not None and text not in _TRANSITIONS:
-            yield words[key], f"unknown state `{text}` of a lifecycle node" + did_you_mean(text, _TRANSITIONS)
-            return
-    start, goal = texts.get("start_state"), texts.get("goal_state")
-    if start and goal and goal not in _TRANSITIONS[start].split():
-        following = " or ".join(f"`{each}`" for each in _TRANSITIONS[start].split()[:2]) or "no state"
-        yield words["goal_state"], f"`{goal}` never follows the state `{start}`; {following} follows it"
 
 
 def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, reader: LaunchReader) -> Defects:

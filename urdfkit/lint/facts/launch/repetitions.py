@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import launch_reader, name_of
+from urdfkit.description.launch.python_constants import launch_reader, name_of, unparsed
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.python_names import python_files
@@ -117,11 +117,11 @@ def repeated_simulators(source: Source, tree: ast.Module) -> Iterator[tuple[Span
         words = {word.arg: word.value for word in call.keywords}
         condition = words.get("condition")
         paths = [found for node in ast.walk(call) if isinstance(node, ast.expr) and (found := reader.path(node))]
-        arguments = ast.unparse(words["launch_arguments"]) if "launch_arguments" in words else ""
+        arguments = unparsed(words["launch_arguments"]) if "launch_arguments" in words else ""
         is_client = re.search(r"['\" ]-g\b", arguments) is not None
         if is_client or not isinstance(condition, ast.Call) or not any(path in _SERVERS for path in paths):
             continue
-        key = f"{name_of(condition.func)} {[ast.unparse(each) for each in condition.args]}"
+        key = f"{name_of(condition.func)} {[unparsed(each) for each in condition.args]}"
         first = servers.setdefault(key, condition)
         if first is not condition:
             place_of_condition = source.span(*place(source, condition))

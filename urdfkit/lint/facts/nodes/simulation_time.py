@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import launch_reader, name_of
+from urdfkit.description.launch.python_constants import launch_reader, name_of, unparsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import Node, start_of
@@ -187,8 +187,8 @@ def _in_python(source: Source, tree: ast.Module) -> Defects:
         is_timed = name_of(call.func) == "Node" and (package in _TIMED or (package or "").startswith("nav2_"))
         condition = words.get("condition")
         names = [each.id for each in ast.walk(condition) if isinstance(each, ast.Name)] if condition is not None else []
-        written = [value for value in (condition, *map(reader.assigned.get, names)) if value is not None]
-        if any(re.search(_OF_CLOCK, ast.unparse(value)) for value in written):
+        conditions = [value for value in (condition, *map(reader.assigned.get, names)) if value is not None]
+        if any(re.search(_OF_CLOCK, unparsed(value)) for value in conditions):
             continue
         if not (is_timed or name_of(call.func) == "IncludeLaunchDescription"):
             continue

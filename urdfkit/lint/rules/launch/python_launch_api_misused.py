@@ -20,6 +20,8 @@ class PythonLaunchApiMisused(RobotRule):
 
     - misspelt names, and names that another module defines
     - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
+    - calls of launch classes that lack an argument, or pass one without its keyword
+    - substitutions that are added to a string or inserted into an f-string
     - lists without brackets, unknown values of ``output``, and ``items`` without a call
     - calls of the file's own functions that lack an argument
     - the string value of a launch argument that is used as a Boolean, or compared with a Boolean
@@ -103,6 +105,8 @@ class PythonLaunchApiMisused(RobotRule):
                     yield self._at(source, place(source, value), message)
             elif word.arg == "default_value" and kind == "DeclareLaunchArgument" and _is_number(word.value):
                 yield self._at(source, (start, end), "`default_value` is not a string; write it in quotes")
+            elif word.arg == "choices" and (others := [each for each in reader.items(word.value) if _is_number(each)]):
+                yield self._at(source, place(source, others[0]), "a choice is not a string; write it in quotes")
             elif word.arg == "condition" and (other := _no_condition(word.value, reader)):
                 message = f"`condition` is a {other}; write `IfCondition(...)` around it"
                 yield self._at(source, (start, end), message)

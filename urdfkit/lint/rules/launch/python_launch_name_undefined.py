@@ -72,12 +72,14 @@ class PythonLaunchNameUndefined(RobotRule):
                 end = min(end, start + len(source.text[start:end].partition("\n")[0]))
                 yield self.at_span(source.span(start, end), message, help="write `return` and the LaunchDescription")
             elif not any(_ends(node) for node in own_nodes(function)) and function.name in _opaque(tree):
-                lists = [node for node in own_nodes(function) if isinstance(node, ast.Expr) and _has_actions(node)]
-                for node in lists[:1]:
+                inner = list(own_nodes(function))
+                lists = [node for node in inner if isinstance(node, ast.Expr) and _has_actions(node)]
+                starts = any(isinstance(node, ast.Call) and name_of(node.func) in _STARTING for node in inner)
+                for node in lists[:1] or function.body[-1:] if starts or lists else ():
                     start, end = place(source, node)
                     end = min(end, start + len(source.text[start:end].partition("\n")[0]))
                     message = f"the function `{function.name}` of an OpaqueFunction does not return its actions"
-                    yield self.at_span(source.span(start, end), message, help="write `return` before the list")
+                    yield self.at_span(source.span(start, end), message, help="return the list of actions")
 
 
 def _is_description(node: ast.AST) -> bool:
@@ -96,6 +98,9 @@ def _opaque(tree: ast.Module) -> set[str]:
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) == "OpaqueFunction"]
     values = [each for call in calls for each in (*call.args, *(word.value for word in call.keywords))]
     return {each.id for each in values if isinstance(each, ast.Name)}
+
+
+_STARTING = ("ComposableNodeContainer", "ExecuteProcess", "IncludeLaunchDescription", "LifecycleNode", "Node")
 
 
 def _ends(node: ast.AST) -> bool:
