@@ -407,6 +407,12 @@ install(TARGETS drive DESTINATION lib/${PROJECT_NAME})
 """
 
 
+_TEST_OF_AMENT = """find_package(ament_cmake_gtest REQUIRED)
+ament_add_gtest(core_test test.cpp)
+target_link_libraries(core_test stdc++)
+"""
+
+
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
@@ -419,10 +425,14 @@ install(TARGETS drive DESTINATION lib/${PROJECT_NAME})
         ("src/drive.cpp", "source/drive.cpp", []),
         ("add_executable", "include(targets.cmake)\nadd_executable", []),
         ("install(TARGETS drive", "add_python_module(extra x.cpp)\ninstall(TARGETS drive extra", []),
-        ("install", "ament_add_gtest(core_test test.cpp)\ntarget_link_libraries(core_test stdc++)\ninstall", []),
-        ("install", "ament_add_gmock(core_test test.cpp)\ntarget_link_libraries(core_test stdc++)\ninstall", []),
+        ("install", _TEST_OF_AMENT.replace("gtest", "gtest") + "install", []),
+        ("install", _TEST_OF_AMENT.replace("gtest", "gmock") + "install", []),
         ("install", "catkin_add_gtest(${PROJECT_NAME}-test a.cpp)\ntarget_link_libraries(cart-test m)\ninstall", []),
-        ("install", "add_rostest_gtest(core_test a.test a.cpp)\ntarget_link_libraries(core_test m)\ninstall", []),
+        (
+            "install",
+            _TEST_OF_AMENT.replace("ament_cmake_gtest", "rostest").replace("ament_add", "add_rostest") + "install",
+            [],
+        ),
         ("install", "if(TARGET core)\n  target_link_libraries(core m)\nendif()\ninstall", []),
         ("install", "find_package(fmt REQUIRED)\ntarget_compile_definitions(fmt PUBLIC A)\ninstall", []),
         ("install", "FetchContent_MakeAvailable(json)\ntarget_compile_options(json PUBLIC -w)\ninstall", []),

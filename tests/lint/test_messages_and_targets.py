@@ -43,6 +43,7 @@ FILES = {
     "src/drive.cpp": '#include "rclcpp/rclcpp.hpp"\n#include "std_msgs/msg/bool.hpp"\nint main() {}\n',
     "launch/cart.launch.xml": '<launch>\n  <node pkg="cart" exec="drive"/>\n</launch>\n',
 }
+NEEDS = "CMakeLists.txt:6: {}() needs find_package({} REQUIRED)"
 NEEDS_GROUP = "rosidl_generate_interfaces() needs <member_of_group>rosidl_interface_packages</member_of_group>"
 
 
@@ -63,7 +64,12 @@ NEEDS_GROUP = "rosidl_generate_interfaces() needs <member_of_group>rosidl_interf
             "",
             ["CMakeLists.txt:7: `Load.msg` uses `std_msgs`, which is missing in DEPENDENCIES"],
         ),
-        ("CMakeLists.txt", "DEPENDENCIES std_msgs", "DEPENDENCIES sensor_msgs", []),
+        (
+            "CMakeLists.txt",
+            "DEPENDENCIES std_msgs",
+            "DEPENDENCIES sensor_msgs",
+            [NEEDS.format("rosidl_generate_interfaces", "sensor_msgs")],
+        ),
         ("CMakeLists.txt", "DEPENDENCIES std_msgs", "DEPENDENCIES shop_msgs", []),
         (
             "package.xml",
@@ -89,7 +95,12 @@ NEEDS_GROUP = "rosidl_generate_interfaces() needs <member_of_group>rosidl_interf
             "(drive rclcpp)",
             ["CMakeLists.txt:13: target `drive` includes headers of `std_msgs`, but does not depend on it"],
         ),
-        ("CMakeLists.txt", "(drive rclcpp std_msgs)", "(drive rclcpp nav_msgs)", []),
+        (
+            "CMakeLists.txt",
+            "(drive rclcpp std_msgs)",
+            "(drive rclcpp nav_msgs)",
+            [NEEDS.format("ament_target_dependencies", "nav_msgs")],
+        ),
         ("CMakeLists.txt", "(drive rclcpp std_msgs)", "(drive rclcpp shop_core)", []),
         ("CMakeLists.txt", "(drive rclcpp std_msgs)", "(drive rclcpp ${NEEDED})", []),
     ],

@@ -14,6 +14,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect, evaluated
+from urdfkit.lint.facts.packaging.cmake_packages import provided
 from urdfkit.lint.project.code_files import code_texts
 
 INTERFACES = (".msg", ".srv", ".action")
@@ -23,42 +24,6 @@ _OF_CATKIN = {"msg": "add_message_files", "srv": "add_service_files", "action": 
 """Folder → the command of catkin that generates its files."""
 
 _GENERATOR = "rosidl_generate_interfaces"
-_INSTALLED = {
-    "std_msgs": "builtin_interfaces",
-    "geometry_msgs": "std_msgs",
-    "shape_msgs": "geometry_msgs",
-    "sensor_msgs": "geometry_msgs",
-    "nav_msgs": "geometry_msgs",
-    "stereo_msgs": "sensor_msgs",
-    "trajectory_msgs": "geometry_msgs",
-    "diagnostic_msgs": "geometry_msgs",
-    "visualization_msgs": "sensor_msgs",
-    "actionlib_msgs": "std_msgs",
-    "std_srvs": "",
-    "builtin_interfaces": "",
-    "unique_identifier_msgs": "",
-    "action_msgs": "builtin_interfaces unique_identifier_msgs",
-    "rclcpp": "builtin_interfaces",
-    "rclcpp_lifecycle": "rclcpp lifecycle_msgs",
-    "rclcpp_components": "rclcpp composition_interfaces",
-    "rclcpp_action": "rclcpp action_msgs",
-    "lifecycle_msgs": "",
-    "composition_interfaces": "",
-}
-"""Package → packages whose headers and messages a dependency on it provides too."""
-
-
-def _covered(packages: Collection[str]) -> set[str] | None:
-    """Return packages with the packages that they provide; None if one of them is unknown."""
-    found, left = set[str](), [*packages]
-    while left:
-        name = left.pop()
-        if name not in _INSTALLED:
-            return None
-        if name not in found:
-            found.add(name)
-            left += _INSTALLED[name].split()
-    return found
 
 
 def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
@@ -73,7 +38,7 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
     words = [word for word, _ in generator.words]
     at = words.index("DEPENDENCIES") if "DEPENDENCIES" in words else len(words)
     end = next((i for i, word in enumerate(words) if i > at and word.isupper()), len(words))
-    covered = None if any("$" in word for word in words[at:end]) else _covered(words[at + 1 : end])
+    covered = None if any("$" in word for word in words[at:end]) else provided(words[at + 1 : end], {})
     start, word = (generator.words[at][1], words[at]) if at < len(words) else (generator.start, generator.name)
     seen = {files.name, *(covered or ())}
     for path, text in texts if covered is not None else ():
@@ -155,36 +120,3 @@ def target_defects(
         if target is not None and place is not None and place not in (f"lib/{files.name}", f"share/{files.name}"):
             message = f"executable `{target}` is installed to `{place}`, but launch files need it in `lib/{files.name}`"
             yield BuildDefect(source, start, written, message)
-    found = {each.words[0][0] for each in every if each.name == "find_package" and each.words}
-    is_global = any(each.name in ("include_directories", "link_libraries", "include") for each in every)
-    if "catkin" not in found and not is_global:
-        yield from _includes(files, source, every, added, found)
-
-
-_USES = ("ament_target_dependencies", "target_link_libraries", "target_include_directories")
-
-
-def _includes(
-    files: BuildFiles, source: Source, every: list[CMakeCommand], added: list[CMakeCommand], found: set[str]
-) -> Iterator[BuildDefect]:
-    """Yield the targets that include headers of a package which CMake finds and which no command adds to them."""
-    own = {each.words[0][0] for each in added}
-    for target in added:
-        name = target.words[0][0]
-        uses = [each for each in every if each.name in _USES and each.words and each.words[0][0] == name]
-        words = [word for each in uses for word, _ in each.words[1:] if word not in ("PUBLIC", "PRIVATE", "INTERFACE")]
-        if not uses or any("$" in word or word in own or "/" in word for word in words):
-            continue
-        covered = _covered({package for word in words if (package := word.partition("::")[0]) in _INSTALLED})
-        others = {word.partition("::")[0] for word in words} - {*_INSTALLED}
-        for path in (files.folder / word for word, _ in target.words[1:] if re.search(r"\.(?:cc|cpp|cxx)$", word)):
-            if covered is None or not path.is_file():
-                continue
-            for package in re.findall(r"(?m)^[ \t]*#include[ \t]*[<\"](\w+)/", path.read_text("utf-8", "replace")):
-                is_interface = re.search(r"_(?:msgs|srvs|interfaces|actions?)$", package) is not None
-                is_open = is_interface and package in _INSTALLED and others  # another package may provide it
-                if package not in found - {*covered, *others, files.name} or not is_interface or is_open:
-                    continue
-                covered.add(package)
-                message = f"target `{name}` includes headers of `{package}`, but does not depend on it"
-                yield BuildDefect(source, uses[0].start, uses[0].name, message)

@@ -78,7 +78,9 @@ class BuildFileInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
+        from urdfkit.lint.facts.packaging.cmake_packages import package_defects
         from urdfkit.lint.facts.packaging.setup_defects import setup_defects
+        from urdfkit.lint.facts.packaging.target_code import code_defects
         from urdfkit.lint.facts.packaging.target_defects import INTERFACES, message_defects, target_defects
 
         used = _used_paths(model)
@@ -96,8 +98,10 @@ class BuildFileInconsistent(RobotRule):
                 elsewhere = misplaced(files, files.cmake, every, {*folders}, named)
                 defects = [*cmake_defects(files.cmake, every), *elsewhere]
                 model.expanded.packages.watch(files.folder, *INTERFACES)
+                defects += package_defects(files, files.cmake, every)
                 defects += message_defects(files, files.cmake, every)
                 defects += target_defects(files, files.cmake, every, _started(model, files.name))
+                defects += code_defects(files, files.cmake, every)
                 yield from self._cmake(files, files.cmake, every)
             elif files.setup is not None:
                 yield from self._setup(files, files.setup)

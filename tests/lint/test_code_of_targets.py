@@ -1,0 +1,180 @@
+"""Packages, headers and libraries that the targets of CMakeLists.txt need, with correct packages as a start."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.lint.test_build_files import MANIFEST, found, write
+
+CMAKE = """cmake_minimum_required(VERSION 3.8)
+project(cart)
+find_package(ament_cmake REQUIRED)
+find_package(nav_msgs REQUIRED)
+find_package(rclcpp REQUIRED)
+find_package(rclcpp_components REQUIRED)
+find_package(std_srvs REQUIRED)
+add_library(core SHARED src/core.cpp)
+target_include_directories(core PUBLIC include)
+ament_target_dependencies(core rclcpp)
+add_library(part SHARED src/part.cpp)
+target_link_libraries(part core)
+ament_target_dependencies(part rclcpp_components nav_msgs std_srvs)
+rclcpp_components_register_node(part PLUGIN "cart::Part" EXECUTABLE part_node)
+install(TARGETS core part ARCHIVE DESTINATION lib LIBRARY DESTINATION lib RUNTIME DESTINATION bin)
+install(DIRECTORY include/ DESTINATION include)
+install(DIRECTORY urdf DESTINATION share/${PROJECT_NAME})
+ament_package()
+"""
+DEPENDS = "".join(f"<depend>{name}</depend>" for name in ("nav_msgs", "rclcpp", "rclcpp_components", "std_srvs"))
+FILES = {
+    "package.xml": MANIFEST.replace("<exec_depend>launch_ros</exec_depend>", DEPENDS),
+    "CMakeLists.txt": CMAKE,
+    "urdf/cart.urdf": '<robot name="cart"><link name="base"/></robot>\n',
+    "include/cart/core.hpp": "#pragma once\nnamespace cart { double speed(); }\n",
+    "src/core.cpp": '#include "cart/core.hpp"\n#include <rclcpp/rclcpp.hpp>\ndouble cart::speed() { return 1.0; }\n',
+    "src/part.cpp": """#include "cart/core.hpp"
+#include <nav_msgs/msg/odometry.hpp>
+#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_components/register_node_macro.hpp>
+#include <std_srvs/srv/empty.hpp>
+namespace cart { class Part : public rclcpp::Node {}; }
+RCLCPP_COMPONENTS_REGISTER_NODE(cart::Part)
+""",
+}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            "find_package(nav_msgs REQUIRED)\n",
+            "",
+            ["3: ament_target_dependencies() needs find_package(nav_msgs REQUIRED)"],
+        ),
+        (
+            "find_package(rclcpp_components REQUIRED)\n",
+            "",
+            ["5: ament_target_dependencies() needs find_package(rclcpp_components REQUIRED)"],
+        ),
+        (
+            "(part rclcpp_components nav_msgs std_srvs)",
+            "(part rclcpp_componets nav_msgs std_srvs)",
+            ["13: unknown package `rclcpp_componets`; did you mean `rclcpp_components`?"],
+        ),
+        (
+            "(part rclcpp_components nav_msgs std_srvs)",
+            "(part rclcpp_components std_srvs)",
+            ["12: target `part` includes headers of `nav_msgs`, but does not depend on it"],
+        ),
+        ("(part rclcpp_components nav_msgs std_srvs)", "(part rclcpp_components shop std_srvs)", []),
+        (
+            "target_link_libraries(part core)\n",
+            "",
+            ["11: `cart/core.hpp` is not found: target `part` lacks the folder `include` of headers"],
+        ),
+        (
+            "target_link_libraries(part core)\n",
+            "target_include_directories(part PUBLIC include)\n",
+            ["13: target `part` uses `cart/core.hpp`, but does not link the library `core`"],
+        ),
+        (
+            "target_link_libraries(part core)",
+            "target_link_libraries(part corre)",
+            ["12: no command defines the library `corre`; did you mean `core`?"],
+        ),
+        (
+            "target_include_directories(core PUBLIC include)\n",
+            "",
+            [
+                f"{line}: `cart/core.hpp` is not found: target `{name}` lacks the folder `include` of headers"
+                for line, name in ((8, "core"), (10, "part"))
+            ],
+        ),
+        (" src/part.cpp)", ")", ["11: target `part` has no source files"]),
+        (
+            "add_library(part SHARED src/part.cpp)\ntarget_link_libraries(part core)\n",
+            "target_link_libraries(part core)\nadd_library(part SHARED src/part.cpp)\n",
+            ["11: target_link_libraries() is called before add_library() defines the target `part`"],
+        ),
+        ("find_package(nav_msgs REQUIRED)\n", "ament_auto_find_build_dependencies()\n", []),
+    ],
+)
+def test_targets_of_ament(tmp_path, monkeypatch, old, new, expected):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, FILES)
+    assert found(tmp_path) == []
+    assert CMAKE.count(old) == 1
+    write(tmp_path, {"CMakeLists.txt": CMAKE.replace(old, new)})
+    assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
+
+
+def test_find_package_after_its_use(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    line = "find_package(nav_msgs REQUIRED)\n"
+    write(
+        tmp_path,
+        {**FILES, "CMakeLists.txt": CMAKE.replace(line, "").replace("ament_package()", f"{line}ament_package()")},
+    )
+    assert found(tmp_path) == [
+        "CMakeLists.txt:17: find_package(nav_msgs) is called after ament_target_dependencies(), which uses it"
+    ]
+
+
+CATKIN = """cmake_minimum_required(VERSION 3.0.2)
+project(cart)
+find_package(catkin REQUIRED COMPONENTS
+  message_generation
+  roscpp
+  std_msgs
+)
+add_message_files(FILES Load.msg)
+generate_messages(DEPENDENCIES std_msgs)
+catkin_package(CATKIN_DEPENDS message_runtime roscpp std_msgs)
+include_directories(${catkin_INCLUDE_DIRS})
+add_executable(drive src/drive.cpp)
+target_link_libraries(drive ${catkin_LIBRARIES})
+install(TARGETS drive DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+"""
+MANIFEST_OF_CATKIN = """<package format="2">
+  <name>cart</name>
+  <version>1.0.0</version>
+  <description>A cart.</description>
+  <maintainer email="cart@example.com">The maintainers</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>catkin</buildtool_depend>
+  <build_depend>message_generation</build_depend>
+  <depend>message_runtime</depend>
+  <depend>roscpp</depend>
+  <depend>std_msgs</depend>
+</package>
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("  message_generation\n", "", ["4: add_message_files() needs find_package(message_generation REQUIRED)"]),
+        (
+            "target_link_libraries(drive ${catkin_LIBRARIES})\n",
+            "",
+            ["12: target `drive` is not linked with `${catkin_LIBRARIES}`"],
+        ),
+        (
+            "CATKIN_DEPENDS message_runtime roscpp",
+            "CATKIN_DEPENDS message_runtime rocspp",
+            ["10: unknown package `rocspp`; did you mean `roscpp`?"],
+        ),
+        ("CATKIN_DEPENDS", "DEPENDS", ["10: `roscpp` is a package of catkin, which belongs to CATKIN_DEPENDS"]),
+    ],
+)
+def test_targets_of_catkin(tmp_path, monkeypatch, old, new, expected):
+    monkeypatch.chdir(tmp_path)
+    code = "#include <ros/ros.h>\nint main() {}\n"
+    files = {**FILES, "CMakeLists.txt": CATKIN, "package.xml": MANIFEST_OF_CATKIN, "src/drive.cpp": code}
+    files["msg/Load.msg"] = "std_msgs/Header header\nfloat64 mass\n"
+    write(tmp_path, files)
+    assert found(tmp_path) == []
+    assert CATKIN.count(old) == 1
+    write(tmp_path, {"CMakeLists.txt": CATKIN.replace(old, new)})
+    assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
