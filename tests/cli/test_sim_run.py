@@ -205,12 +205,18 @@ def test_messages_at_their_time(capsys: Capture) -> None:
     report = run(capsys, "simpleton", "--for", "2", "--topic-pub", go, "--topic-pub", halt)
     assert report["base"]["position"][0] == pytest.approx(0.3, abs=0.03)
     assert report["topics"]["/simpleton/cmd_vel"]["count"] == 2
-    assert (
-        main(["sim", "run", "simpleton", "--for", "0", "--topic-pub", "/simpleton/cmd_vle geometry_msgs/Twist {}"]) == 0
-    )
-    assert "/simpleton/cmd_vle has no subscribers; did you mean `/simpleton/cmd_vel`?" in capsys.readouterr().err
-    assert main(["sim", "run", "simpleton", "--for", "0", "--topic-pub", "/cmd_vl geometry_msgs/Twist {}"]) == 0
-    assert "/cmd_vl has no subscribers; did you mean `/simpleton/cmd_vel`?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("topic", ["/simpleton/cmd_vle", "/cmd_vl"])
+def test_a_message_for_a_misspelt_topic_is_an_error_unless_other_programs_may_subscribe(
+    capsys: Capture, tmp_path: Path, topic: str
+) -> None:
+    command = ["sim", "run", "simpleton", "--for", "0", "--topic-pub", f"{topic} geometry_msgs/Twist {{}}"]
+    message = f"{topic} has no subscribers; did you mean `/simpleton/cmd_vel`?"
+    assert main(command) == 2
+    assert capsys.readouterr().err.splitlines() == [f"urdfkit: --topic-pub: {message}"]
+    assert main([*command, "--record", str(tmp_path / "run.mcap")]) == 0
+    assert message in capsys.readouterr().err
 
 
 def test_until(capsys: Capture) -> None:

@@ -127,13 +127,15 @@ def test_rates_are_of_simulated_time(topic) -> None:
 
 @pytest.mark.slow
 def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
-    topic("pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: 0.5}}", "--rate", "50", "-n", "3")
+    target = f"geometry_msgs/msg/Twist to {COMMAND}"
+    printed = topic("pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: 0.5}}", "--rate", "50", "-n", "3")
+    assert printed == f"publishing {target} at 50 Hz\npublished 3 messages of type {target}\n"
     until(lambda: ride.simulator.state.v[0] > 0.4)
-    topic("pub", COMMAND, "--once")  # its type is known; all zero
+    assert topic("pub", COMMAND, "--once") == f"published 1 message of type {target}\n"  # all zero
     until(lambda: abs(ride.simulator.state.v[0]) < 0.01)
     topic("pub", COMMAND, "geometry_msgs/msg/Twist", "[-0.5, 0, 0]", "[0, 0, 0]", "--once")
     until(lambda: ride.simulator.state.v[0] < -0.4)
-    topic("pub", COMMAND, "{linear: {x: 0}}", "--once")
+    assert topic("pub", COMMAND, "{linear: {x: 0}}", "--once", "--quiet") == ""
     until(lambda: abs(ride.simulator.state.v[0]) < 0.01)
 
 

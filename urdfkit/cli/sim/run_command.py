@@ -90,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
     save_options.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     run_options, duration = run_options_of(arguments), duration_of(arguments)
     simulator = load(arguments, run_options)
-    run_options.schedule(simulator)
+    run_options.schedule(simulator, others_may_subscribe=bool(options) or arguments.record is not None)
     images = image_files.find_topics(simulator, arguments.save_image)
     ranges = scan_files.find_topics(simulator, arguments.save_scan)
     with (

@@ -55,6 +55,7 @@ def _rate(text: str) -> float:
 async def run(client: Client, arguments: argparse.Namespace) -> int:
     """Publish messages; wait for each response, so that an error is reported."""
     from urdfkit.bus import absolute
+    from urdfkit.messages import full_type_name
 
     rows = await topics(client)
     name = absolute(arguments.topic)
@@ -66,8 +67,6 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
     kind = kind or find_topic(rows, name).type
     number = 1 if arguments.once else arguments.number
     if not (arguments.quiet or arguments.live) and (name not in row_by_name or not row_by_name[name].subscribers):
-        from urdfkit.messages import full_type_name
-
         subscribed = [row.name for row in rows if row.subscribers and row.name != name]
         same = [row.name for row in rows if row.subscribers and row.type == full_type_name(kind)]
         near = did_you_mean(name, subscribed) or (
@@ -75,15 +74,23 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
         )
         note(f"urdfkit: {name} has no subscribers{near}")
     loop = asyncio.get_running_loop()
-    due, sent = loop.time(), 0
-    while True:
-        await client.request("publish", topic=name, type=kind, message=values)
-        sent += 1
-        if sent == number:
-            return 0
-        due = max(due + 1.0 / (arguments.rate or RATE), loop.time())
-        while (remaining := due - loop.time()) > 0:
-            await client.text(remaining)  # receive and discard other messages
+    due, sent, rate = loop.time(), 0, arguments.rate or RATE
+    target = f"{full_type_name(kind)} to {name}"
+    try:
+        while True:
+            await client.request("publish", topic=name, type=kind, message=values)
+            sent += 1
+            if sent == number:
+                return 0
+            if sent == 1 and not arguments.quiet:
+                end = "; Ctrl-C stops" if number is None else ""
+                print(f"publishing {target} at {rate:g} Hz{end}", flush=True)
+            due = max(due + 1.0 / rate, loop.time())
+            while (remaining := due - loop.time()) > 0:
+                await client.text(remaining)  # receive and discard other messages
+    finally:
+        if sent and not arguments.quiet:
+            print(f"published {sent} {'message' if sent == 1 else 'messages'} of type {target}", flush=True)
 
 
 def message_of(words: list[str]) -> Any:

@@ -73,8 +73,10 @@ def cached() -> bool:
 
 
 def announcement() -> str:
-    """Return the message before a compilation, with its measured duration [CPU s]."""
-    return "compiling the ray kernels, once, about 15 s …"
+    """Return the message before a compilation, with its approximate duration."""
+    from urdfkit.compilation.duration import announced_duration
+
+    return f"compiling the ray kernels, once, {announced_duration(15)} …"
 
 
 def warmup(progress: Progress | None = None) -> bool:

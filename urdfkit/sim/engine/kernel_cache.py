@@ -139,9 +139,12 @@ def _advance(*, world: bool) -> Kernel:
 
 
 def announcement(*, world: bool = False) -> str:
-    """Return the message before a compilation, with the kernel and its approximate duration [CPU s, measured]."""
+    """Return the message before a compilation, with the kernel and its approximate duration."""
+    from urdfkit.compilation.duration import announced_duration
+
+    # The durations are measured on an idle machine.
     what, seconds = (" for worlds that hold bodies", 50) if world else ("", 22)
-    return f"compiling the physics kernel{what}, once, about {seconds} s …"
+    return f"compiling the physics kernel{what}, once, {announced_duration(seconds)} …"
 
 
 def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:

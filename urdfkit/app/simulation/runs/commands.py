@@ -69,11 +69,17 @@ def require_free(simulator: Simulator, joint: str) -> None:
             )
 
 
-def publish_at(simulator: Simulator, wanted: TopicMessage) -> None:
+def publish_at(simulator: Simulator, wanted: TopicMessage, *, others_may_subscribe: bool = False) -> None:
     """Schedule one message.
 
+    Args:
+        simulator: not yet advanced.
+        wanted: the message.
+        others_may_subscribe: whether a recording or programs on a bridge may subscribe to the topic later; a topic
+            without subscribers is then a warning.
+
     Raises:
-        UsageError: the type or a field is unknown, or the topic has another type.
+        UsageError: the type or a field is unknown, the topic has another type, or it has no subscribers.
     """
     import yaml
 
@@ -93,7 +99,8 @@ def publish_at(simulator: Simulator, wanted: TopicMessage) -> None:
     if absolute(wanted.topic) not in subscribed:
         own = sorted(topic for topic in subscribed if not topic.startswith(("/gazebo/", "/world/")))
         others = f" (topics with subscribers: {', '.join(own)})" if own else ""
-        simulator.note(
-            f"{absolute(wanted.topic)} has no subscribers{similar_topic(absolute(wanted.topic), subscribed) or others}"
-        )
+        near = similar_topic(absolute(wanted.topic), subscribed) or others
+        if not others_may_subscribe:
+            raise UsageError(f"--topic-pub: {absolute(wanted.topic)} has no subscribers{near}")
+        simulator.note(f"{absolute(wanted.topic)} has no subscribers{near}")
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))

@@ -74,8 +74,12 @@ class RunOptions:
             note=note,
         )
 
-    def schedule(self, simulator: Simulator) -> None:
+    def schedule(self, simulator: Simulator, *, others_may_subscribe: bool = False) -> None:
         """Schedule the commands of the run.
+
+        Args:
+            simulator: not yet advanced.
+            others_may_subscribe: see `publish_at`.
 
         Raises:
             UrdfkitError: a topic, type, field or joint is unknown.
@@ -90,4 +94,4 @@ class RunOptions:
         if self.trajectory is not None:
             follow(simulator, read_trajectory(self.trajectory))
         for message in self.messages:
-            publish_at(simulator, message)
+            publish_at(simulator, message, others_may_subscribe=others_may_subscribe)
