@@ -68,7 +68,7 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypat
 
 
 def test_no_folder(tmp_path):
-    with pytest.raises(ResourceError, match="No such file"):
+    with pytest.raises(ResourceError, match="no such folder"):
         write_text(tmp_path / "no" / "a", "")
 
 

@@ -211,7 +211,7 @@ def test_usage_errors(here):
         find_model(["a", "b"])
     with pytest.raises(UsageError, match="`:=5` has no key"):
         find_model(["simpleton", ":=5"])
-    with pytest.raises(ResourceError, match="--package-path nowhere: no such folder"):
+    with pytest.raises(ResourceError, match="--package-path: no such folder: nowhere"):
         find_model(["simpleton"], package_path=["nowhere"])
 
 

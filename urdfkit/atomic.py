@@ -8,12 +8,13 @@ import shutil
 import signal
 import tempfile
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from urdfkit.errors import ResourceError, UrdfkitError
+from urdfkit.errors import ResourceError, UrdfkitError, UsageError
 from urdfkit.file_replacement import CONTENTS, check_unchanged, replace_files, restore_files, write_list
+from urdfkit.missing_files import missing_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -22,6 +23,26 @@ if TYPE_CHECKING:
 _TEMPORARY_PREFIX = ".urdfkit-"
 _MOVES = ".urdfkit-moves"
 """File in a temporary folder that lists the paths of a move into place, for `clean_up`."""
+
+
+def check_output_files(option: str, files: Iterable[Path]) -> None:
+    """Reject files that cannot be written, before a long computation starts. No command creates their folders.
+
+    Args:
+        option: name of the option, such as ``--save-image``.
+        files: files that will be written.
+
+    Raises:
+        UsageError: the folder does not exist or is not writable, or the file is a folder.
+    """
+    for file in files:
+        folder = file.parent
+        if file.is_dir():
+            raise UsageError(f"{option}: {file} is a folder")
+        if not folder.is_dir():
+            raise UsageError(f"{option}: cannot write {file}: {missing_path(folder, 'folder')}")
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise UsageError(f"{option}: cannot write {file}: {folder} is not writable")
 
 
 def write_text(path: Path, text: str) -> None:
@@ -69,6 +90,8 @@ def write_bytes(path: Path, content: bytes) -> None:
             Path(temporary).chmod(mode)
             Path(temporary).replace(target)
             temporary = None
+        except FileNotFoundError as error:
+            raise ResourceError(f"cannot write {path}: {missing_path(path.parent, 'folder')}") from error
         except OSError as error:
             raise ResourceError(f"cannot write {path}: {error.strerror}") from error
         finally:

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.errors import ResourceError, UsageError, did_you_mean, nearest
+from urdfkit.errors import ResourceError, UsageError, did_you_mean
+from urdfkit.missing_files import missing_path
 from urdfkit.record import record
 from urdfkit.robot_files import MODEL_SUFFIXES, children, models_in, robot_name, stem
 
@@ -148,7 +149,7 @@ def _shipped(kind: str) -> Path:
 def _existing_folder(folder: str | Path) -> Path:
     path = Path(folder).expanduser()
     if not path.is_dir():
-        raise ResourceError(f"--package-path {folder}: no such folder{_near(path)}")
+        raise ResourceError(f"--package-path: {missing_path(folder, 'folder')}")
     return path.resolve()
 
 
@@ -170,7 +171,7 @@ def _find(word: str) -> Path:
     if path.exists():
         raise ResourceError(f"{word} is neither a file nor a folder")
     if _looks_like_a_path(word):
-        raise ResourceError(f"no such file or folder: {word}{_near(path)}")
+        raise ResourceError(missing_path(word, "file or folder"))
     here = [p.name for p in children(Path.cwd()) if p.is_dir() or p.suffix.lower() in MODEL_SUFFIXES]
     names = robot_names()
     hint = did_you_mean(word, [*names, *here])
@@ -201,15 +202,6 @@ def _looks_like_a_path(word: str) -> bool:
         or word.startswith((".", "~"))
         or Path(word).suffix.lower() in (*MODEL_SUFFIXES, ".xml")
     )
-
-
-def _near(path: Path) -> str:
-    """Return a did-you-mean hint for the first part of `path` that does not exist."""
-    missing, parent = path, path.parent
-    while not parent.is_dir() and parent != parent.parent:
-        missing, parent = parent, parent.parent
-    near = nearest(missing.name, [child.name for child in children(parent)])
-    return Suggestion(near and str(parent / near), missing.name)
 
 
 def _find_here(start: Path) -> Path:

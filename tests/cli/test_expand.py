@@ -41,8 +41,8 @@ def test_prints_what_stock_xacro_prints(model: Path, capsys: pytest.CaptureFixtu
 def test_writes_the_file(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["expand", str(model), "prefix:=x_"]) == 0
     printed = capsys.readouterr().out
-    assert main(["expand", str(model), "-o", "out/robot.urdf", "prefix:=x_"]) == 0
-    assert Path("out/robot.urdf").read_text() == printed
+    assert main(["expand", str(model), "-o", "out.urdf", "prefix:=x_"]) == 0
+    assert Path("out.urdf").read_text() == printed
     assert capsys.readouterr().out == ""
 
 
@@ -63,18 +63,18 @@ def test_a_file_that_was_read_is_not_overwritten(model: Path, capsys: pytest.Cap
     assert model.read_text() == MODEL
 
 
-def test_a_created_folder_is_named(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["expand", str(model), "-o", "out/deep/robot.urdf"]) == 0
-    assert capsys.readouterr().err == "urdfkit: note: created the folder out/deep\n"
-    assert main(["expand", str(model), "-o", "out/deep/robot.urdf"]) == 0
-    assert main(["expand", str(model), "-o", "other/robot.urdf", "-q"]) == 0
-    assert capsys.readouterr().err == ""
+def test_the_folder_of_the_output_must_exist(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("build").mkdir()
+    assert main(["expand", str(model), "-o", "biuld/robot.urdf"]) == 2
+    message = "cannot write biuld/robot.urdf: no such folder: biuld; did you mean `build`?"
+    assert capsys.readouterr().err == f"urdfkit: -o: {message}\n"
+    assert not Path("biuld").exists()
 
 
 def test_an_output_that_cannot_be_written(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder").mkdir()
     assert main(["expand", str(model), "-o", "folder"]) == 2
-    assert capsys.readouterr().err == "urdfkit: cannot write folder: it is a folder\n"
+    assert capsys.readouterr().err == "urdfkit: -o: folder is a folder\n"
     assert main(["expand", str(model), "-o", f"{model}/x.urdf"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 

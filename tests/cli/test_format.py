@@ -78,7 +78,7 @@ def test_settings_standard_input_and_byte_order_marks(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["missing.urdf"], "missing.urdf: no such file or folder"),
+        (["missing.urdf"], "no such file or folder: missing.urdf"),
         (["-", "ugly.urdf"], "format: - reads standard input and cannot be combined with paths, --check or --diff"),
         (["--indent", "none"], "format: argument --indent: `none` is not a number of spaces from 1 to 8"),
     ],

@@ -260,7 +260,7 @@ def test_the_solution_is_the_nearest_of_all(capsys: pytest.CaptureFixture[str], 
         (["finger_a", "--xyz", "1,2,3", "--base", "wrld"], "no frame `wrld` in robot `arm`; did you mean `world`?"),
         (["--xyz", "1,2,3"], "such as finger_a, finger_b, camera_optical"),
         (["finger_a", "--targets", "poses.npy", "--all"], "ik: --all needs one pose: use --xyz instead of --targets"),
-        (["finger_a", "--targets", "none.npy"], "ik: --targets none.npy: No such file or directory"),
+        (["finger_a", "--targets", "none.npy"], "ik: --targets: no such file: none.npy"),
         (
             ["finger_a", "--targets", "none.txt"],
             "ik: --targets none.txt: unsupported file type; use .npy, .npz or .csv",

@@ -124,7 +124,7 @@ def test_a_misspelt_xacro_argument_is_named(package, capsys):
         (["--unsafe-fixes"], "--unsafe-fixes requires --fix or --diff"),
         ([":=5"], "has no key"),
         (["--format", "jsn"], "did you mean `json`"),
-        (["--package-path", "nowhere"], "--package-path nowhere: no such folder"),
+        (["--package-path", "nowhere"], "--package-path: no such folder: nowhere"),
         (["empty"], "no robot description"),
     ],
 )

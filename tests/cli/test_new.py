@@ -291,7 +291,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         ([], "pass a kind: .*robot, world"),
         (["robot", "scout", "--diff"], "--diff requires --update"),
         (["--update"], r"nothing to update in \.: no \*/urdfkit-new\.toml"),
-        (["robot", "scout", "--template", "mine"], "--template mine: no such folder"),
+        (["robot", "scout", "--template", "mine"], "--template: no such folder: mine"),
     ],
 )
 def test_errors_are_one_line_and_write_nothing(place, capsys, arguments, message):
@@ -338,7 +338,7 @@ def test_options_come_before_the_file(place):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (None, r"--from a\.toml: No such file"),
+        (None, r"--from: no such file: a\.toml"),
         ("name = ", r"--from a\.toml: Invalid"),
         ('name = "ox"\nmass = -2\n', r"a\.toml: --mass -2 kg is out of range"),
         ('nmae = "x"\n', r"a\.toml: no question `nmae`; did you mean `name`"),

@@ -121,4 +121,4 @@ def test_a_simulated_robot_follows_the_motion(place, capsys):
 
 def test_the_nearest_file_of_a_missing_path_is_suggested(place, capsys):
     (place / "path.csv").write_text("shoulder,elbow\n0,0\n1,1\n")
-    assert "paht.csv: no such file; did you mean `path.csv`?" in refusal(capsys, "retime", "arm.urdf", "paht.csv")
+    assert "no such file: paht.csv; did you mean `path.csv`?" in refusal(capsys, "retime", "arm.urdf", "paht.csv")

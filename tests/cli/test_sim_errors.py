@@ -310,7 +310,7 @@ OPTIONS = {
     (
         "--controllers",
         "arm.yaml",
-    ): "argument --controllers: cannot read arm.yaml: no such file; did you mean `arms.yaml`?",
+    ): "argument --controllers: no such file: arm.yaml; did you mean `arms.yaml`?",
     ("--topic-pub", "/cmd_vel"): 'argument --topic-pub: `/cmd_vel` is incomplete; expected "TOPIC TYPE YAML@T"',
     ("--topic-pub", "/a geometry_msgs/Twist {linea: {x: 1}}"): "no field `linea` in geometry_msgs/msg/Twist; did you "
     "mean `linear`?",

@@ -101,7 +101,7 @@ def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Captu
     assert main(["sim", "run", LASER, "--for", "9", f"--save-scan=/scan={tmp_path / 'v.csv'}", wrong]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert f"cannot write {tmp_path}/sene/x." in line
-    assert line.endswith(f"no folder {tmp_path}/sene; did you mean `seen`?")
+    assert line.endswith(f"no such folder: {tmp_path}/sene; did you mean `{tmp_path}/seen`?")
     (tmp_path / "x.json").mkdir()
     assert main(["sim", "run", LASER, "--for", "9", f"--save-scan={tmp_path / 'x.json'}"]) == 2
     assert capsys.readouterr().err.endswith("x.json is a folder\n")
@@ -113,7 +113,7 @@ def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Captu
 def test_the_place_of_a_recording_is_checked_first(tmp_path: Path, capsys: Capture, monkeypatch) -> None:
     monkeypatch.setattr("urdfkit.resources.find_model", lambda *_, **__: pytest.fail("the robot is looked for"))
     assert main(["sim", "teleop", LASER, "--record", f"{tmp_path}/nowhere/x.mcap"]) == 2
-    assert f"--record: cannot write {tmp_path}/nowhere/x.mcap: no folder" in capsys.readouterr().err
+    assert f"--record: cannot write {tmp_path}/nowhere/x.mcap: no such folder" in capsys.readouterr().err
 
 
 def test_nothing_is_written_where_one_has_not_come(tmp_path: Path, capsys: Capture) -> None:

@@ -97,7 +97,7 @@ def test_an_update_refuses_the_srdf_of_another_robot(tmp_path, capsys, name, lin
         (["--group", "arm=base_link"], "must be NAME=BASE:TIP"),
         (["--group", "arm=base_lnk:gripper_roll_link"], "no link `base_lnk`; did you mean `base_link`?"),
         (["--group", "arm=gripper_roll_link:base_link"], "`base_link` is not below `gripper_roll_link`"),
-        (["--update", "absent.srdf"], "--update absent.srdf: No such file"),
+        (["--update", "absent.srdf"], "--update: no such file: absent.srdf"),
         (["--samples", "0"], "`0` is not a number of configurations"),
     ],
 )

@@ -181,7 +181,7 @@ def test_a_call_reads_nothing_outside_of_its_folder_and_ends(folder: Path) -> No
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--root", "missing"], "--root missing: no such folder"),
+        (["--root", "missing"], "--root: no such folder: missing"),
         (["--time-limit", "0"], "`0` is not a number of seconds"),
     ],
 )

@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from urdfkit.errors import MissingDependencyError, ResourceError
+from urdfkit.missing_files import missing_path
 
 FIRST_BYTES = {".mcap": b"\x89MCAP", ".db3": b"SQLite format 3", ".bag": b"#ROSBAG V"}
 """Suffix → the first bytes of such files."""
@@ -61,9 +62,7 @@ class BagFile:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         if not self.path.exists():
-            from urdfkit.description.packages.similar_names import near_path
-
-            raise ResourceError(f"no file {self.path}{near_path(self.path)}")
+            raise ResourceError(missing_path(self.path))
         if self.path.is_file() and self.path.suffix not in FIRST_BYTES:
             raise ResourceError(f"{self.path} is not a recording: recordings are {', '.join(FIRST_BYTES)} files")
         if self.path.is_file() and not _begins_with(self.path, FIRST_BYTES[self.path.suffix]):

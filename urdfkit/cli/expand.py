@@ -9,7 +9,7 @@ from urdfkit.cli.robot_arguments.robot_loading import add_macro, named_robot
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.description.xacro.expanded import Expanded
-from urdfkit.errors import ModelError, ResourceError, UrdfkitError, UsageError, XacroError
+from urdfkit.errors import ModelError, UrdfkitError, UsageError, XacroError
 from urdfkit.resources import ModelArgument
 
 
@@ -47,9 +47,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    from urdfkit.atomic import check_output_files
     from urdfkit.description.xacro.expand import expand
 
     model = named_robot(arguments.model, arguments)
+    if arguments.output is not None:
+        check_output_files("-o", [arguments.output])
     # A path is passed as typed, because the banner shows it, as in stock xacro.
     typed = next((word for word in arguments.model if ":=" not in word and Path(word).is_file()), str(model.path))
     packages = Packages(model.package_path, model.path)
@@ -69,9 +72,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         sys.stdout.write(expanded.xml)
     else:
-        created = _write(expanded, arguments.output)
-        if created is not None and not arguments.quiet:
-            print(f"urdfkit: note: created the folder {created}", file=sys.stderr)
+        _write(expanded, arguments.output)
     return 0
 
 
@@ -135,18 +136,9 @@ def _show_notes(expanded: Expanded, model: ModelArgument) -> None:
         print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 
-def _write(expanded: Expanded, output: Path) -> Path | None:
-    """Write the file; return its folder if it was created."""
+def _write(expanded: Expanded, output: Path) -> None:
     from urdfkit.atomic import write_text
 
     if any(output.exists() and file.exists() and output.samefile(file) for file in expanded.files):
         raise UsageError(f"expand: -o {output} would overwrite a file that was read")
-    if output.is_dir():
-        raise ResourceError(f"cannot write {output}: it is a folder")
-    is_new = not output.parent.exists()
-    try:
-        output.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ResourceError(f"cannot write {output}: {error.strerror or error}") from error
     write_text(output, expanded.xml)
-    return output.parent if is_new else None

@@ -98,9 +98,9 @@ def _files(words: list[str], *, quiet: bool) -> Iterator[Path]:
         if path.is_file():
             yield path
         elif not path.is_dir():
-            from urdfkit.description.packages.similar_names import near_path
+            from urdfkit.missing_files import missing_path
 
-            raise ResourceError(f"{word}: no such file or folder{near_path(path)}")
+            raise ResourceError(missing_path(word, "file or folder"))
         else:
             for file in walk(path):
                 reason = reason_if_generated(file, file.read_text("utf-8", "replace"))

@@ -8,8 +8,8 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from urdfkit.cli.parser import Parser
-from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.missing_files import missing_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def _file(word: str) -> Path:
             raise ResourceError(f"{word} is a folder with {len(models)} descriptions; name the file: {listed}")
         path = models[0]
     if not path.is_file():
-        raise ResourceError(f"no such file: {word}{near_path(path)}")
+        raise ResourceError(missing_path(word))
     if (instead := _OTHER_FORMATS.get(path.suffix.lower())) is not None:
         raise UsageError(f"{word} is {instead}")
     if path.suffix == ".xacro":
@@ -134,7 +134,7 @@ def _file(word: str) -> Path:
 def _folder(word: str) -> Path:
     path = Path(word).expanduser()
     if not path.is_dir():
-        raise ResourceError(f"--meshes {word}: no such folder")
+        raise ResourceError(f"--meshes: {missing_path(word, 'folder')}")
     return path
 
 

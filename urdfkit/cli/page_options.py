@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import Page, note
-from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import UsageError
+from urdfkit.missing_files import missing_path
 
 if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
@@ -59,9 +59,10 @@ def read_layout(arguments: argparse.Namespace) -> dict[str, Any] | None:
                 f"--layout {path}: larger than {LARGEST_LAYOUT // 1000} kB; this is not a layout of urdfkit"
             )
         layout = json.loads(path.read_text("utf-8"))
+    except FileNotFoundError as error:
+        raise UsageError(f"--layout: {missing_path(path)}") from error
     except OSError as error:
-        near = near_path(path) if isinstance(error, FileNotFoundError) else ""
-        raise UsageError(f"--layout {path}: {error.strerror}{near}") from error
+        raise UsageError(f"--layout {path}: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
         raise UsageError(f"--layout {path}: not JSON: {error}") from error
     if not isinstance(layout, dict) or layout.get("version") != 1:

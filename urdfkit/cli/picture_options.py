@@ -79,12 +79,12 @@ def check_picture_options(arguments: argparse.Namespace) -> None:
 
     from urdfkit.app.pictures.camera_placement import camera_direction
     from urdfkit.app.pictures.films import MOTIONS, check_film
-    from urdfkit.app.simulation.save_options import check_places
+    from urdfkit.atomic import check_output_files
 
     for option in ("image", "video"):
         if (name := getattr(arguments, option)) is None:
             continue
-        check_places(f"--{option}", [Path(name)])
+        check_output_files(f"--{option}", [Path(name)])
         _size(arguments.size, option)
     if arguments.image is not None and Path(arguments.image).suffix.lower() not in IMAGES:
         raise UsageError(f"--image: `{arguments.image}` has no supported format; supported: {' '.join(IMAGES)}")

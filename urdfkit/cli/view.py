@@ -62,14 +62,13 @@ def run(arguments: argparse.Namespace) -> int:
     require_page("view", "view", modules=("rosbags",))
     from urdfkit.app.page_modes import view_and_simulate
     from urdfkit.app.repair_findings import note_repairs
-    from urdfkit.app.simulation.save_options import check_places
     from urdfkit.app.viewer.shown_robot import ShownRobot
     from urdfkit.app.viewer.viewing import html_page
-    from urdfkit.atomic import write_text
+    from urdfkit.atomic import check_output_files, write_text
 
     if is_picture:
         check_picture_options(arguments)
-    check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
+    check_output_files("--html", [Path(arguments.html)] if arguments.html is not None else [])
     named = named_robot(arguments.model, arguments)
     model = with_launch_arguments(named, arguments)
 

@@ -66,7 +66,7 @@ def test_the_nearest_file_counts_and_the_repository_is_the_end(tmp_path):
         ("[lint]\ntarget = ['gz']\n", "`lint.target` must be a string"),
         ("[lint.per-file-ignores]\na = 'E'\n", "`lint.per-file-ignores.a` must be a list of codes"),
         ("[lint.arguments]\na = []\n", "`lint.arguments.a` must be a single value"),
-        ("[lint]\npackage-path = ['nowhere']\n", "folder not found"),
+        ("[lint]\npackage-path = ['nowhere']\n", "no such folder"),
         ("lint = 3\n", "`lint` must be a table, not 3"),
         ("[lint\n", "is not valid TOML"),
         ("[lint]\nselect = ['E0O1']\n", "`lint.select` E0O1: unknown rule; did you mean `E0"),
@@ -86,5 +86,5 @@ def test_what_is_not_known_is_reported_in_one_line(tmp_path, text, message):
 
 
 def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(UsageError, match="cannot read"):
+    with pytest.raises(UsageError, match="no such file"):
         read(Path(tmp_path / "none.toml"))

@@ -53,11 +53,14 @@ def test_in_a_folder(small_template, monkeypatch):
 
 @pytest.mark.parametrize(
     ("place", "message"),
-    [("tmplate", "no such folder; did you mean `template`"), ("template/all", r"it contains no template\.toml")],
+    [
+        ("tmplate", "--template: no such folder: tmplate; did you mean `template`"),
+        ("template/all", r"--template template/all: it contains no template\.toml"),
+    ],
 )
 def test_where_there_is_none(small_template, monkeypatch, place, message):
     monkeypatch.chdir(small_template.parent)
-    with pytest.raises(ResourceError, match=f"^--template {place}: {message}"):
+    with pytest.raises(ResourceError, match=f"^{message}"):
         template_at(place)
 
 

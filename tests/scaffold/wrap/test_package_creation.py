@@ -213,11 +213,11 @@ def test_a_missing_mesh_is_refused(export, capsys):
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["export/urdf/arn.urdf"], "did you mean `arm.urdf`?"),
+        (["export/urdf/arn.urdf"], "did you mean `export/urdf/arm.urdf`?"),
         (["export/urdf/arm.urdf", "--ros", "noetik"], "did you mean `noetic`?"),
         (["export/urdf/arm.urdf", "--name", "My Arm"], "did you mean `my_arm`?"),
         (["export/urdf/arm.urdf", "--meshs", "a"], "did you mean `--meshes`?"),
-        (["export/urdf/arm.urdf", "--meshes", "a"], "--meshes a: no such folder"),
+        (["export/urdf/arm.urdf", "--meshes", "a"], "--meshes: no such folder: a"),
         (["export/urdf/two.urdf"], "urdfkit: export/urdf/two.urdf:1:"),
         (["x.xacro"], "is a xacro file"),
         (["export/urdf/arm.urdf", "--out", "a"], "did you mean `--into`?"),

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from urdfkit.bus import absolute
-from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -28,26 +26,6 @@ SAVED_BY = {
     "sensor_msgs/msg/PointCloud2": ("--save-scan", "points"),
 }
 """Type of messages → the option that saves them, and the name of their content."""
-
-
-def check_places(option: str, files: Iterable[Path]) -> None:
-    """Reject files that cannot be written, before the simulation starts.
-
-    Args:
-        option: name of the option, such as ``--save-image``.
-        files: files that will be written.
-
-    Raises:
-        UsageError: the folder does not exist or is not writable, or the file is a folder.
-    """
-    for file in files:
-        folder = file.parent
-        if file.is_dir():
-            raise UsageError(f"{option}: {file} is a folder")
-        if not folder.is_dir():
-            raise UsageError(f"{option}: cannot write {file}: no folder {folder}{near_path(folder)}")
-        if not os.access(folder, os.W_OK | os.X_OK):
-            raise UsageError(f"{option}: cannot write {file}: {folder} is not writable")
 
 
 def find_topics(

@@ -17,6 +17,7 @@ from urdfkit.cli.progress_line import ProgressLine
 from urdfkit.cli.robot_arguments.robot_loading import add_robot_options, load_with_notes, named_robot, repairs_as_json
 from urdfkit.cli.sim.option_values import seed
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.missing_files import missing_path
 
 if TYPE_CHECKING:
     from urdfkit.kinematics.self_collision import CollisionMatrix
@@ -133,6 +134,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _read(file: Path) -> str:
     try:
         return file.read_text("utf-8")
+    except FileNotFoundError:
+        raise ResourceError(f"srdf: --update: {missing_path(file)}") from None
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
         raise ResourceError(f"srdf: --update {file}: {reason}") from None

@@ -171,10 +171,10 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
 def _folder(word: str) -> Path:
     folder = Path(word).expanduser()
     if not folder.is_dir():
-        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.errors import ResourceError
+        from urdfkit.missing_files import missing_path
 
-        raise ResourceError(f"--package-path {word}: no such folder{near_path(folder)}")
+        raise ResourceError(f"--package-path: {missing_path(word, 'folder')}")
     return folder
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from urdfkit.cli.parser import seconds
 from urdfkit.errors import MissingDependencyError, ResourceError
+from urdfkit.missing_files import missing_path
 
 TIME_LIMIT = 60.0
 """Default limit of the wall time of one call [s]."""
@@ -38,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     """
     root = Path(arguments.root).expanduser()
     if not root.is_dir():
-        raise ResourceError(f"--root {arguments.root}: no such folder")
+        raise ResourceError(f"--root: {missing_path(arguments.root, 'folder')}")
     try:
         import mcp.server.mcpserver  # noqa: F401
     except ImportError as error:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.app.simulation.save_options import check_places
+from urdfkit.atomic import check_output_files
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def check_record(arguments: argparse.Namespace) -> None:
     from urdfkit.bridges.recorder import check_name
 
     check_name(Path(arguments.record))
-    check_places("--record", [Path(arguments.record)])
+    check_output_files("--record", [Path(arguments.record)])
 
 
 @contextmanager

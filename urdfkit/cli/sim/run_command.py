@@ -76,18 +76,18 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     check_run_options(arguments, "sim run")
     require_packages("sim run", "sim", {name: name for name in ("numpy", "trimesh", "numba", "rosbags")})
-    from urdfkit.app.simulation import image_files, save_options
+    from urdfkit.app.simulation import image_files
     from urdfkit.app.simulation.bridging.bridges import bridged
     from urdfkit.app.simulation.bridging.real_time import RunControls
-    from urdfkit.atomic import write_bytes
+    from urdfkit.atomic import check_output_files, write_bytes
     from urdfkit.cli.sim import scan_files
     from urdfkit.cli.sim.run_report import as_json, as_text
 
-    save_options.check_places("--save-image", (each.file for each in arguments.save_image))
-    save_options.check_places("--save-scan", (each.file for each in arguments.save_scan))
+    check_output_files("--save-image", (each.file for each in arguments.save_image))
+    check_output_files("--save-scan", (each.file for each in arguments.save_scan))
     check_record(arguments)
     options = bridge_options(arguments)
-    save_options.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
+    check_output_files("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     run_options, duration = run_options_of(arguments), duration_of(arguments)
     simulator = load(arguments, run_options)
     run_options.schedule(simulator, others_may_subscribe=bool(options) or arguments.record is not None)

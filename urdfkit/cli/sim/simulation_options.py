@@ -66,12 +66,11 @@ def parameter_file(text: str) -> str:
     Raises:
         argparse.ArgumentTypeError: the file does not exist.
     """
-    from urdfkit.description.packages.similar_names import near_path
+    from urdfkit.missing_files import missing_path
 
     path = Path(text)
     if not path.is_file():
-        wrong = "it is a folder" if path.is_dir() else f"no such file{near_path(path)}"
-        raise argparse.ArgumentTypeError(f"cannot read {text}: {wrong}")
+        raise argparse.ArgumentTypeError(f"{text} is a folder" if path.is_dir() else missing_path(text))
     return text
 
 

@@ -10,9 +10,10 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.packages.package_search import PackageSearch
 from urdfkit.description.packages.related_files import CODE, around, state_of
-from urdfkit.description.packages.similar_names import near_package, similar_file
+from urdfkit.description.packages.similar_names import near_package
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError
+from urdfkit.missing_files import similar_file
 from urdfkit.position import Position
 
 NOT_READ = "is not read, because --confined hides the environment"

@@ -154,10 +154,10 @@ def _check_exists(path: str | Path) -> None:
     Raises:
         ResourceError: it is a folder or not there, with the nearest name.
     """
-    from urdfkit.description.packages.similar_names import near_path
+    from urdfkit.missing_files import missing_path
 
     path = Path(path)
     if path.is_dir():
         raise ResourceError(f"{path} is a folder, not a description")
     if not path.exists():
-        raise ResourceError(f"no such file: {path}" + near_path(path))
+        raise ResourceError(missing_path(path))

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import ResourceError
 from urdfkit.linear_algebra import Array
+from urdfkit.missing_files import missing_path
 
 TIME = "time"
 """Column with the time [s]; a file without it is a path."""
@@ -41,7 +41,7 @@ def read_path(file: Path) -> JointPath:
     try:
         text = file.read_text("utf-8-sig")
     except FileNotFoundError:
-        raise ResourceError(f"{file}: no such file{near_path(file)}") from None
+        raise ResourceError(missing_path(file)) from None
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
         raise ResourceError(f"{file}: cannot be read: {reason}") from None

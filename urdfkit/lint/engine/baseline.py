@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 
 from urdfkit.errors import ResourceError
+from urdfkit.missing_files import missing_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -38,6 +39,8 @@ def read(path: Path) -> Counter[Key]:
             )
         rows = [(str(row["file"]), str(row["code"]), str(row["message"])) for row in written["findings"]]
         counts = [int(row.get("count", 1)) for row in written["findings"]]
+    except FileNotFoundError as error:
+        raise ResourceError(f"--baseline: {missing_path(path)}; --write-baseline creates a baseline") from error
     except OSError as error:
         raise ResourceError(
             f"cannot read the baseline {path}: {error.strerror}; create one with --write-baseline"

@@ -22,6 +22,7 @@ from pathlib import Path
 
 from urdfkit.description.xml.formatting import INDENT, MAX_INDENT
 from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.missing_files import missing_path
 from urdfkit.record import field, record
 
 TYPE_CHECKING = False
@@ -107,6 +108,8 @@ def read(file: Path) -> LintSettings:
 
     try:
         table: Any = tomllib.loads(file.read_text("utf-8"))
+    except FileNotFoundError as error:
+        raise UsageError(missing_path(file)) from error
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"cannot read {file}: {getattr(error, 'strerror', None) or 'it is not UTF-8'}") from error
     except tomllib.TOMLDecodeError as error:
@@ -179,7 +182,7 @@ def _folders(file: Path, name: str, value: list[Any]) -> tuple[Path, ...]:
     folders = tuple(file.parent / Path(text).expanduser() for text in _texts(file, name, value))
     for folder in folders:
         if not folder.is_dir():
-            raise UsageError(f"{file}: `{name}`: folder not found: {folder}")
+            raise UsageError(f"{file}: `{name}`: {missing_path(folder, 'folder')}")
     return folders
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.missing_files import missing_path
 from urdfkit.scaffold.templates.placeholders import path_inside
 from urdfkit.scaffold.templates.questions import Question, applies
 from urdfkit.scaffold.templates.template import Template, required_options
@@ -108,6 +109,8 @@ def _read(path: Path, prefix: str = "") -> dict[str, Any]:
     try:
         table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
         return table
+    except FileNotFoundError as error:
+        raise ResourceError(f"{prefix and '--from: '}{missing_path(path)}") from error
     except OSError as error:
         raise ResourceError(f"{prefix}{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:

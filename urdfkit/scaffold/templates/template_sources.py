@@ -4,6 +4,7 @@ from pathlib import Path
 from types import ModuleType
 
 from urdfkit.errors import ResourceError, did_you_mean
+from urdfkit.missing_files import missing_path
 from urdfkit.entry_points import EntryPoint, entry_points
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.templates.template_parser import NAME, load_template
@@ -52,9 +53,10 @@ def template_at(place: str) -> Template:
     if folder.name == NAME:
         folder = folder.parent
     if not (folder / NAME).is_file():
-        problem = f"it contains no {NAME}" if folder.is_dir() else "no such folder"
+        if not folder.is_dir():
+            raise ResourceError(f"--template: {missing_path(place, 'folder')}")
         near = [path.parent.name for path in folder.absolute().parent.glob(f"*/{NAME}")]
-        raise ResourceError(f"--template {place}: {problem}{did_you_mean(folder.name, near)}")
+        raise ResourceError(f"--template {place}: it contains no {NAME}{did_you_mean(folder.name, near)}")
     return load_template(folder.resolve(), source=str(folder))
 
 

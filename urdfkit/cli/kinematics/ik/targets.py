@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.missing_files import missing_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -101,6 +102,8 @@ def poses_of_file(path: Path, option: str = IK, *, position_only: bool = False) 
         raise UsageError(f"{option} {path}: unsupported file type; use .npy, .npz or .csv")
     try:
         poses = _poses_of_csv(path, option, position_only) if suffix == ".csv" else _array_of(path, option)
+    except FileNotFoundError as error:
+        raise ResourceError(f"{option}: {missing_path(path)}") from error
     except OSError as error:
         raise ResourceError(f"{option} {path}: {error.strerror or error}") from error
     except (ValueError, EOFError) as error:

@@ -8,9 +8,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from urdfkit.defect_message import DefectMessage
 from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.sdf.frame_graph import Scope
 from urdfkit.description.sdf.model import WorldModel
 from urdfkit.description.sdf.model_library import model_file, model_names, world_file, world_names
@@ -28,6 +28,7 @@ from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.errors import DescriptionError, ResourceError, did_you_mean, nearest
+from urdfkit.missing_files import missing_path
 
 _SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf", ".xacro")
@@ -60,9 +61,12 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
     if is_folder(path):
         raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
     if path.suffix in _SUFFIXES and not exists(path):
-        hint = f"; did you mean the bundled world `{path.stem}`?" if path.stem in names else near_path(path)
-        hint = hint or did_you_mean(path.stem, names) or f" (bundled worlds: {', '.join(names)})"
-        raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory" + hint)
+        message = missing_path(shown_path(path))
+        if path.stem in names:
+            message = f"no such file: {shown_path(path)}; did you mean the bundled world `{path.stem}`?"
+        elif not isinstance(message, DefectMessage):  # without a similar file
+            message += did_you_mean(path.stem, names) or f" (bundled worlds: {', '.join(names)})"
+        raise ResourceError(message)
     if path.suffix not in _SUFFIXES:
         raise ResourceError(
             f"no world `{world}`{did_you_mean(str(world), names)}"
