@@ -220,7 +220,7 @@ class Parser(argparse.ArgumentParser):
             raise
 
 
-def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None:
+def add_model(parser: argparse.ArgumentParser) -> None:
     """Add the ROBOT argument and the ``key:=value`` xacro arguments that may follow it.
 
     They arrive as ``arguments.model`` (a list: ROBOT, if given, then ``key:=value`` words) and
@@ -228,7 +228,7 @@ def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None
     """
     parser.add_argument(
         "model",
-        nargs="*" if optional else "+",
+        nargs="*",
         metavar="ROBOT",
         help="a .urdf or .xacro file, a package folder or a robot name; then key:=value xacro arguments",
     )

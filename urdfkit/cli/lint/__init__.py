@@ -30,7 +30,7 @@ settings: [lint] in urdfkit.toml or [tool.urdfkit.lint] in pyproject.toml, neare
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    from urdfkit.cli.parser import add_package_path, add_time_limit
+    from urdfkit.cli.parser import add_package_path, add_time_limit, count
 
     add = parser.add_argument
     add(
@@ -76,17 +76,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     help = "instantiate this macro of the file; key:=value arguments also set its parameters"
     add("--macro", metavar="NAME", help=help)
     add("--no-cache", action="store_true", help="lint unchanged files again")
-    add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
+    jobs = count("number of processes; use 1 or more")
+    add("--jobs", type=jobs, metavar="N", help="number of processes (default: one per core)")
     add_time_limit(parser)
     parser.epilog = _EPILOG
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        from argparse import ArgumentTypeError
-
-        raise ArgumentTypeError(f"`{text}` is not a number of processes; use 1 or more")
-    return int(text)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -8,15 +8,16 @@ from __future__ import annotations
 import argparse
 import gc
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_package_path, add_time_limit
 from urdfkit.errors import MissingDependencyError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from pygls.lsp.server import LanguageServer
 
-    from urdfkit.cli.lsp.session import EditorSession
     from urdfkit.lint.project.options import Options
 
 
@@ -79,105 +80,64 @@ def server_for(options: Options) -> LanguageServer:
     from pygls.lsp.server import LanguageServer
 
     from urdfkit import __version__
+    from urdfkit.cli.lsp.document_features import DocumentFeatures
     from urdfkit.cli.lsp.rejected_requests import Protocol
     from urdfkit.cli.lsp.session import EditorSession
     from urdfkit.lint.editor.open_files import Project
+    from urdfkit.lint.editor.semantic_tokens import TYPES
 
     kind = types.TextDocumentSyncKind.Incremental
     server = LanguageServer("urdfkit", __version__, text_document_sync_kind=kind, protocol_cls=Protocol)
     session = EditorSession(server, Project(options))
-    _add_document_features(server, session)
+    features = DocumentFeatures(session)
 
     @server.feature(types.INITIALIZED)
     def initialized(_: types.InitializedParams) -> None:
         session.load_rules()
-
-    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
-    def opened(params: types.DidOpenTextDocumentParams) -> None:
-        session.changed(params.text_document.uri)
-
-    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
-    def changed(params: types.DidChangeTextDocumentParams) -> None:
-        session.changed(params.text_document.uri)
 
     @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
     def saved(params: types.DidSaveTextDocumentParams) -> None:
         session.project.forget()
         session.changed(params.text_document.uri)
 
-    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
-    def closed(params: types.DidCloseTextDocumentParams) -> None:
-        session.closed(params.text_document.uri)
-
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def watched(_: types.DidChangeWatchedFilesParams) -> None:
         session.project.forget()
         session.publish_all()
-
-    @server.feature(types.TEXT_DOCUMENT_HOVER)
-    def hover(params: types.HoverParams) -> types.Hover | None:
-        return session.hover(params.text_document.uri, params.position)
-
-    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
-    def definition(params: types.DefinitionParams) -> list[types.Location]:
-        return session.definition(params.text_document.uri, params.position)
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     def references(params: types.ReferenceParams) -> list[types.Location]:
         own = params.context.include_declaration
         return session.references(params.text_document.uri, params.position, with_definition=own)
 
-    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
-    def prepare_rename(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
-        return session.renamable(params.text_document.uri, params.position)
-
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     def rename(params: types.RenameParams) -> types.WorkspaceEdit:
         return session.rename(params.text_document.uri, params.position, params.new_name)
-
-    @server.feature(
-        types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=["<", '"', "'", " ", "{", "/", ":"])
-    )
-    def completion(params: types.CompletionParams) -> list[types.CompletionItem]:
-        return session.completion(params.text_document.uri, params.position)
-
-    @server.feature(
-        types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
-    )
-    def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
-        return session.actions(params.text_document.uri, params.range)
-
-    return server
-
-
-def _add_document_features(server: LanguageServer, session: EditorSession) -> None:
-    from lsprotocol import types
-
-    from urdfkit.cli.lsp.document_features import DocumentFeatures
-    from urdfkit.lint.editor.semantic_tokens import TYPES
-
-    features = DocumentFeatures(session)
-
-    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-    def symbols(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-        return features.symbols(params.text_document.uri)
 
     @server.feature(types.WORKSPACE_SYMBOL)
     def workspace_symbols(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
         return features.workspace_symbols(params.query)
 
-    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
-    def folds(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
-        return features.folds(params.text_document.uri)
+    def answer(request: str, by: Callable[..., Any], *fields: str, options: Any = None) -> None:
+        """Answer a request by a method of its document and further fields of its parameters."""
+        server.feature(request, options)(
+            lambda params: by(params.text_document.uri, *(getattr(params, field) for field in fields))
+        )
 
-    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
-    def format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
-        return features.format(params.text_document.uri)
-
-    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, types.SemanticTokensLegend(TYPES, ()))
-    def tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
-        return features.tokens(params.text_document.uri)
-
-    @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
-    def hints(params: types.InlayHintParams) -> list[types.InlayHint]:
-        return features.hints(params.text_document.uri, params.range)
+    triggers = types.CompletionOptions(trigger_characters=["<", '"', "'", " ", "{", "/", ":"])
+    fixes = types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
+    answer(types.TEXT_DOCUMENT_DID_OPEN, session.changed)
+    answer(types.TEXT_DOCUMENT_DID_CHANGE, session.changed)
+    answer(types.TEXT_DOCUMENT_DID_CLOSE, session.closed)
+    answer(types.TEXT_DOCUMENT_HOVER, session.hover, "position")
+    answer(types.TEXT_DOCUMENT_DEFINITION, session.definition, "position")
+    answer(types.TEXT_DOCUMENT_PREPARE_RENAME, session.renamable, "position")
+    answer(types.TEXT_DOCUMENT_COMPLETION, session.completion, "position", options=triggers)
+    answer(types.TEXT_DOCUMENT_CODE_ACTION, session.actions, "range", options=fixes)
+    answer(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, features.symbols)
+    answer(types.TEXT_DOCUMENT_FOLDING_RANGE, features.folds)
+    answer(types.TEXT_DOCUMENT_FORMATTING, features.format)
+    legend = types.SemanticTokensLegend(TYPES, ())
+    answer(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, features.tokens, options=legend)
+    answer(types.TEXT_DOCUMENT_INLAY_HINT, features.hints, "range")
+    return server

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.xml.source import Source, Span
     from urdfkit.lint.editor.cursor import Cursor
-    from urdfkit.lint.editor.open_files import Analysis, Project
+    from urdfkit.lint.editor.open_files import Project
     from urdfkit.lint.finding import Edit
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Document
@@ -142,25 +142,24 @@ class EditorSession:
             self.project.set_text(path, opened.source)
         return path if opened is not None or path.is_file() else None
 
-    def _at(self, uri: str, position: types.Position) -> tuple[list[Analysis], Cursor, Path] | None:
+    def _at(self, uri: str, position: types.Position) -> tuple[list[Model], Cursor, Path] | None:
+        """Return the models that a document belongs to, at least one; None if it cannot be read."""
         from urdfkit.lint.editor.cursor import Cursor
 
         path = self.update(uri)
         if path is None:
             return None
-        analyses = [analysis for analysis in self.project.analyses(path) if analysis.model is not None]
-        for analysis in analyses:
-            assert analysis.model is not None
-            document = analysis.model.document(shown_path(path))
-            if document.source.text or len(analyses) == 1:
-                return analyses, Cursor(document, offset_of(document.source, position)), path
+        models = [analysis.model for analysis in self.project.analyses(path) if analysis.model is not None]
+        for model in models:
+            document = model.document(shown_path(path))
+            if document.source.text or len(models) == 1:
+                return models, Cursor(document, offset_of(document.source, position)), path
         return None
 
     def analysed(self, uri: str) -> tuple[Model, Document] | None:
         """Return the model that a document belongs to, and the document; None if it cannot be read."""
         found = self._at(uri, types.Position(0, 0))
-        model = found[0][0].model if found is not None else None
-        return (model, found[1].document) if found is not None and model is not None else None
+        return (found[0][0], found[1].document) if found is not None else None
 
     def hover(self, uri: str, position: types.Position) -> types.Hover | None:
         """Return the documentation of the element or name at a position."""
@@ -169,9 +168,7 @@ class EditorSession:
         found = self._at(uri, position)
         if found is None:
             return None
-        analyses, cursor, path = found
-        model = analyses[0].model
-        assert model is not None
+        (model, *_), cursor, path = found
         findings = self.project.findings(path)[path]
         entry = model.expanded.path
         pieces = hover(model, cursor, findings, lambda at, text: self.project.probe(entry, path, at, text))
@@ -187,9 +184,7 @@ class EditorSession:
         if found is None:
             return []
         spans: dict[Span, None] = {}
-        for analysis in found[0]:
-            model = analysis.model
-            assert model is not None
+        for model in found[0]:
             if (file := file_at(model, found[1])) is not None:
                 start = types.Position(0, 0)
                 return [types.Location(file.as_uri(), types.Range(start, start))]
@@ -203,16 +198,14 @@ class EditorSession:
         found = self._at(uri, position)
         if found is None:
             return []
-        models = [analysis.model for analysis in found[0] if analysis.model is not None]
-        return self._locations(references(models, found[1], with_definition=with_definition))
+        return self._locations(references(found[0], found[1], with_definition=with_definition))
 
     def renamable(self, uri: str, position: types.Position) -> types.PrepareRenamePlaceholder | None:
         """Return the text under the cursor that can be renamed, and the name that it stands for."""
         from urdfkit.lint.editor.renaming import renamable
 
         found = self._at(uri, position)
-        model = found[0][0].model if found is not None else None
-        one = renamable(model, found[1]) if found is not None and model is not None else None
+        one = renamable(found[0][0], found[1]) if found is not None else None
         if found is None or one is None:
             return None
         return types.PrepareRenamePlaceholder(range_of(found[1].document.source, one[0]), one[1])
@@ -224,11 +217,10 @@ class EditorSession:
         from urdfkit.lint.editor.renaming import rename
 
         found = self._at(uri, position)
-        models = [analysis.model for analysis in found[0] if analysis.model is not None] if found is not None else []
-        if found is None or not models:
+        if found is None:
             raise JsonRpcInvalidParams("no robot description to rename in")
         try:
-            return self._edit(rename(models, found[1], name, self.project.expanded_with))
+            return self._edit(rename(found[0], found[1], name, self.project.expanded_with))
         except UrdfkitError as error:
             raise JsonRpcInvalidParams(str(error)) from None
 
@@ -237,10 +229,11 @@ class EditorSession:
         from urdfkit.lint.editor.completion import fits
 
         found = self._at(uri, position)
-        model = found[0][0].last_readable if found is not None else None
-        if found is None or model is None:
+        if found is None:
             return []
-        cursor = found[1]
+        models, cursor, path = found
+        readable = (each.last_readable for each in self.project.analyses(path) if each.model is models[0])
+        model = next(readable) or models[0]
         items: dict[tuple[str, str], types.CompletionItem] = {}
         for fit in fits(model, cursor):
             start = position_of(cursor.document.source, cursor.offset - fit.typed)

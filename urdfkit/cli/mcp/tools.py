@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from base64 import b64decode
 from collections.abc import Callable
-from functools import partial
+from functools import partial, wraps
 from math import radians
 from typing import TYPE_CHECKING, Any
 
@@ -33,11 +33,15 @@ robot is a .urdf or .xacro file, a package folder, or a bundled name such as `si
 are xacro arguments. Units are SI, angles in radians, quaternions x y z w."""
 
 
-async def _in_thread(call: Callable[[], Any]) -> Any:
-    try:
-        return await anyio.to_thread.run_sync(call)
-    except UrdfkitError as error:
-        raise ToolError(str(error)) from None
+def _in_thread(tool: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(tool)
+    async def called(**values: Any) -> Any:
+        try:
+            return await anyio.to_thread.run_sync(partial(tool, **values))
+        except UrdfkitError as error:
+            raise ToolError(str(error)) from None
+
+    return called
 
 
 class _StrictServer(MCPServer):
@@ -83,28 +87,25 @@ def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
     reads = ToolAnnotations(read_only_hint=True, open_world_hint=False)
 
     @server.tool(annotations=reads)
-    async def lint(
-        path: str = ".", target: str | None = None, arguments: dict[str, str] | None = None
-    ) -> dict[str, Any]:
+    @_in_thread
+    def lint(path: str = ".", target: str | None = None, arguments: dict[str, str] | None = None) -> dict[str, Any]:
         """Report the defects of a URDF or xacro file, a package or a workspace, each with its line and its fix.
 
         `target` is the consumer: ros1, ros2, gz, classic, mujoco, isaac, drake, moveit or any.
         """
-
-        def call() -> dict[str, Any]:
-            words = [*calls.robot(path, arguments), *([f"--target={target}"] if target else [])]
-            found = calls.value("lint", *words, "--confined", "--format=json")
-            return {"count": len(found), "findings": found[:MAX_FINDINGS]}
-
-        return await _in_thread(call)  # type: ignore[no-any-return]
+        words = [*calls.robot(path, arguments), *([f"--target={target}"] if target else [])]
+        found = calls.value("lint", *words, "--confined", "--format=json")
+        return {"count": len(found), "findings": found[:MAX_FINDINGS]}
 
     @server.tool(annotations=reads)
-    async def rule(code: str) -> str:
+    @_in_thread
+    def rule(code: str) -> str:
         """Return the page of a lint rule, such as I503: the defect, the reason, and an example."""
-        return await _in_thread(lambda: calls.run("rule", calls.path(code)))  # type: ignore[no-any-return]
+        return calls.run("rule", calls.path(code))
 
     @server.tool(annotations=ToolAnnotations(read_only_hint=not allow_fixes, open_world_hint=False))
-    async def fix(path: str, unsafe: bool = False, write: bool = False) -> dict[str, Any]:
+    @_in_thread
+    def fix(path: str, unsafe: bool = False, write: bool = False) -> dict[str, Any]:
         """Return the fixes of the findings as a patch; with `write`, apply them if the server permits it.
 
         `unsafe` includes fixes that may change the robot.
@@ -112,23 +113,22 @@ def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
         if write and not allow_fixes:
             raise ToolError("this server writes no files; start it with --allow-fixes, or apply the patch yourself")
 
-        def call() -> dict[str, Any]:
-            words = [calls.path(path), "--confined", *(["--unsafe-fixes"] if unsafe else [])]
-            patch = calls.run("lint", *words, "--diff")
-            if write:
-                calls.run("lint", *words, "--fix", "--quiet")
-            return {"patch": patch, "written": write and bool(patch)}
-
-        return await _in_thread(call)  # type: ignore[no-any-return]
+        words = [calls.path(path), "--confined", *(["--unsafe-fixes"] if unsafe else [])]
+        patch = calls.run("lint", *words, "--diff")
+        if write:
+            calls.run("lint", *words, "--fix", "--quiet")
+        return {"patch": patch, "written": write and bool(patch)}
 
     @server.tool(annotations=reads)
-    async def info(robot: str, arguments: dict[str, str] | None = None) -> dict[str, Any]:
+    @_in_thread
+    def info(robot: str, arguments: dict[str, str] | None = None) -> dict[str, Any]:
         """Return links, joints, degrees of freedom, mass, bounding box, sensors and drives of a robot."""
-        words = partial(calls.robot, robot, arguments)
-        return await _in_thread(lambda: calls.value("info", *words(), "--json"))  # type: ignore[no-any-return]
+        found: dict[str, Any] = calls.value("info", *calls.robot(robot, arguments), "--json")
+        return found
 
     @server.tool(annotations=reads)
-    async def ik(
+    @_in_thread
+    def ik(
         robot: str,
         tip: str,
         xyz: tuple[float, float, float],
@@ -139,16 +139,13 @@ def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
 
         `xyz` is the position [m] and `rpy` the orientation [rad]; without `rpy` any orientation is accepted.
         """
-
-        def call() -> dict[str, Any]:
-            pose = [f"--xyz={_numbers(xyz)}", f"--rpy={_numbers(rpy)}" if rpy is not None else "--position-only"]
-            found: dict[str, Any] = calls.value("ik", *calls.robot(robot, arguments), calls.path(tip), *pose, "--json")
-            return found
-
-        return await _in_thread(call)  # type: ignore[no-any-return]
+        pose = [f"--xyz={_numbers(xyz)}", f"--rpy={_numbers(rpy)}" if rpy is not None else "--position-only"]
+        found: dict[str, Any] = calls.value("ik", *calls.robot(robot, arguments), calls.path(tip), *pose, "--json")
+        return found
 
     @server.tool(annotations=reads)
-    async def sim_run(
+    @_in_thread
+    def sim_run(
         robot: str,
         seconds: float,
         cmd_vel: tuple[float, float, float] | None = None,
@@ -162,17 +159,15 @@ def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
         if not 0.0 < seconds <= MAX_SECONDS:
             raise ToolError(f"seconds is {seconds:g}; use more than 0 and at most {MAX_SECONDS:g}")
 
-        def call() -> dict[str, Any]:
-            words = [*calls.robot(robot, arguments), f"--for={seconds!r}", f"--world={calls.path(world)}"]
-            words += [f"--cmd-vel={_numbers(cmd_vel)}"] if cmd_vel is not None else []
-            calls.warm_up()
-            found: dict[str, Any] = calls.value("sim", "run", *words, "--json")
-            return found
-
-        return await _in_thread(call)  # type: ignore[no-any-return]
+        words = [*calls.robot(robot, arguments), f"--for={seconds!r}", f"--world={calls.path(world)}"]
+        words += [f"--cmd-vel={_numbers(cmd_vel)}"] if cmd_vel is not None else []
+        calls.warm_up()
+        found: dict[str, Any] = calls.value("sim", "run", *words, "--json")
+        return found
 
     @server.tool(annotations=reads)
-    async def picture(
+    @_in_thread
+    def picture(
         robot: str,
         joints: dict[str, float] | None = None,
         azimuth_degrees: float = 35.0,
@@ -182,22 +177,18 @@ def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
         arguments: dict[str, str] | None = None,
     ) -> Image:
         """Return a picture of a robot as PNG, seen from a direction, with joints at given positions [rad or m]."""
-
-        def call() -> Image:
-            calls.robot(robot, arguments)  # checks the names
-            options = {
-                "robot": calls.path(robot),
-                "arguments": arguments or {},
-                "joints": joints or {},
-                "azimuth": radians(azimuth_degrees),
-                "elevation": radians(elevation_degrees),
-                "width": width,
-                "height": height,
-            }
-            calls.warm_up()
-            return Image(data=b64decode(calls.run("picture", json.dumps(options))), format="png")
-
-        return await _in_thread(call)  # type: ignore[no-any-return]
+        calls.robot(robot, arguments)  # checks the names
+        options = {
+            "robot": calls.path(robot),
+            "arguments": arguments or {},
+            "joints": joints or {},
+            "azimuth": radians(azimuth_degrees),
+            "elevation": radians(elevation_degrees),
+            "width": width,
+            "height": height,
+        }
+        calls.warm_up()
+        return Image(data=b64decode(calls.run("picture", json.dumps(options))), format="png")
 
     return server
 

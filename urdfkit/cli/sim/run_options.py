@@ -8,11 +8,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.robot_loading import add_macro, load_robot, named_robot, warn_of_unused_arguments
+from urdfkit.cli.robot_arguments.launch_arguments_option import with_launch_arguments
+from urdfkit.cli.robot_arguments.robot_loading import load_robot, named_robot, warn_of_unused_arguments
 from urdfkit.cli.sim import option_values
-from urdfkit.cli.sim.simulation_options import add_controllers, add_distro, add_renderer, add_repair_options
+from urdfkit.cli.sim.simulation_options import add_simulation_options
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -28,9 +27,6 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
     """Add the robot, the start, the step, the plugins and the commands."""
     # argparse parses `-1,0,0` as an option unless this pattern matches it.
     parser._negative_number_matcher = re.compile(r"^-\.?\d|^-(inf|nan)", re.IGNORECASE)
-    add_model(parser)
-    add_macro(parser)
-    add_launch_arguments(parser, "simulation")
     add = parser.add_argument
     add(
         "--for",
@@ -38,12 +34,6 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         type=option_values.duration,
         metavar="SECONDS",
         help=f"simulated time (default with --trajectory: its last time plus {SETTLE:g} s)",
-    )
-    add(
-        "--world",
-        default="empty",
-        metavar="WORLD",
-        help="bundled world (empty, void, house, …) or an SDF file (default: empty)",
     )
     add(
         "--dt",
@@ -107,10 +97,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
     )
     add("--fixed-base", action="store_true", help="fix the root link to the world")
     add("--until", metavar='"EXPR"', help='stop when the expression is true, e.g. "x > 1 or t > 3"')
-    add_distro(parser)
-    add_controllers(parser)
-    add_renderer(parser)
-    add_repair_options(parser)
+    add_simulation_options(parser)
 
 
 def check_run_options(arguments: argparse.Namespace, command: str) -> None:
@@ -186,7 +173,7 @@ def load_robot_of_run(arguments: argparse.Namespace, more: Mapping[str, str] | N
     """Load the robot of the command line.
 
     Args:
-        arguments: with the options of `add_run_options`.
+        arguments: with the options of `add_simulation_options`.
         more: further xacro arguments.
 
     Raises:

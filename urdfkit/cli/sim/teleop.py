@@ -5,18 +5,11 @@ from contextlib import ExitStack
 
 from urdfkit.app.page import note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, opens_browser, page_of, read_layout
-from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.robot_loading import (
-    add_macro,
-    load_robot,
-    named_robot,
-    warn_of_file_names,
-    warn_of_unused_arguments,
-)
+from urdfkit.cli.robot_arguments.robot_loading import warn_of_file_names
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
-from urdfkit.cli.sim.simulation_options import add_controllers, add_distro, add_renderer, add_repair_options
+from urdfkit.cli.sim.run_options import load_robot_of_run
+from urdfkit.cli.sim.simulation_options import add_simulation_options
 from urdfkit.cli.sim.terminal_option import add_terminal, check_terminal, terminal_driving
 from urdfkit.cli.sim.warnings import GroupedWarnings, note_lint_target
 
@@ -27,19 +20,7 @@ Shift strafes; q/z change both speeds by 10 %, e/c the turning speed. Ctrl-C exi
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    add_model(parser)
-    add_macro(parser)
-    add_launch_arguments(parser, "simulation")
-    parser.add_argument(
-        "--world",
-        default="empty",
-        metavar="WORLD",
-        help="bundled world (empty, void, house, …) or an SDF file (default: empty)",
-    )
-    add_distro(parser)
-    add_controllers(parser)
-    add_renderer(parser)
-    add_repair_options(parser)
+    add_simulation_options(parser)
     add_record(parser)
     add_page_options(parser)
     add_terminal(parser)
@@ -74,10 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     from_terminal = check_terminal(arguments, browser=opens_browser(arguments))
     with until_interrupted():
         with loading_limit():
-            named = named_robot(arguments.model, arguments)
-            model = with_launch_arguments(named, arguments)
-            robot = load_robot(model, arguments)
-            warn_of_unused_arguments(named, robot.files, quiet=arguments.quiet)
+            robot = load_robot_of_run(arguments)
             world = load_world(arguments.world)
         page = page_of("sim", arguments, layout, arguments.watchers_may)
         warnings = GroupedWarnings(quiet=arguments.quiet)
