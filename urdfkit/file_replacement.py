@@ -33,6 +33,18 @@ _LIST = "list"
 """File in that folder with a row for each file, for `restore_files`: digest before, digest after, path."""
 
 
+def read_bytes(path: Path) -> bytes:
+    """Return the content of a file.
+
+    Raises:
+        ResourceError: it cannot be read.
+    """
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise ResourceError(f"{path}: {error.strerror}") from error
+
+
 def check_unchanged(changes: Sequence[Replacement]) -> None:
     """Raise if a file is not as it was read.
 
@@ -43,10 +55,7 @@ def check_unchanged(changes: Sequence[Replacement]) -> None:
         ResourceError: a file was changed or created, or cannot be read.
     """
     for change in changes:
-        try:
-            now = change.path.read_bytes() if change.path.exists() else None
-        except OSError as error:
-            raise ResourceError(f"{change.path}: {error.strerror}") from error
+        now = read_bytes(change.path) if change.path.exists() else None
         if now != change.before:
             problem = "already exists" if change.before is None else "was changed in the meantime"
             raise ResourceError(f"{change.path} {problem}; nothing was changed")

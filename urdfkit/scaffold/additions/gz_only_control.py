@@ -42,7 +42,6 @@ def topics(controllers: list[ChosenController]) -> dict[str, str]:
             whole = each.wheels is not None or name.startswith("gripper")
             topic = "cmd_vel" if each.wheels else name
             topic_of[joint] = topic if whole else f"{name}/{joint.removesuffix('_joint')}"
-            topic_of[joint] = topic if whole else f"{name}/{joint.removesuffix('_joint')}"
     return topic_of
 
 

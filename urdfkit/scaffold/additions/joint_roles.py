@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from urdfkit.description.urdf.geometry import compose, rotate, rotation_of
-from urdfkit.description.urdf.robot import Cylinder, Joint, Link, Pose, Robot, Sphere
+from urdfkit.description.urdf.geometry import link_poses, rotate, rotation_of
+from urdfkit.description.urdf.robot import Cylinder, Joint, Link, Robot, Sphere
 from urdfkit.scaffold.additions.existing_hardware import KINDS, ExistingHardware, hardware
 
 _FINGER = re.compile(r"finger|jaw|claw", re.IGNORECASE)
@@ -81,7 +81,7 @@ def roles(robot: Robot, existing: ExistingHardware | None = None, *, follow: boo
             left_over.append(joint)
     fingers = [joint for joint in left_over if _is_finger(joint)]
     rolling = [joint for joint in left_over if joint not in fingers and _rolls(joint, robot, parents)]
-    wheels = _wheels(rolling, robot, parents)
+    wheels = _wheels(rolling, robot)
     other = {
         joint.name: kind for joint in rolling if (kind := existing.interfaces.get(joint.name, "velocity")) != "velocity"
     }
@@ -142,16 +142,17 @@ def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool
         return False
     if any(joint in _above(other, parents) for other in robot.joints if other.type in _MOVED):
         return False
-    across = rotate(rotation_of(_placement(joint, parents).rpy), joint.axis)[1]
+    across = rotate(rotation_of(link_poses(robot)[joint.child or ""].rpy), joint.axis)[1]
     length = sum(axis * axis for axis in joint.axis) ** 0.5
     return bool(length > 0 and abs(across) / length > 0.99)
 
 
-def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint]) -> WheelJoints | None:
+def _wheels(joints: list[Joint], robot: Robot) -> WheelJoints | None:
     """Return the differential drive of some wheels: as many left as right, mirrored, with equal radii."""
     if len(joints) < 2 or len(joints) % 2:
         return None
-    places = {joint.name: _placement(joint, parents).xyz for joint in joints}
+    poses = link_poses(robot)
+    places = {joint.name: poses[joint.child or ""].xyz for joint in joints}
     radii = [_radius(robot.link_by_name.get(joint.child or "")) for joint in joints]
     middle = sum(place[1] for place in places.values()) / len(places)
     left = sorted((name for name in places if places[name][1] > middle), key=lambda name: places[name][0])
@@ -173,14 +174,3 @@ def _radius(link: Link | None) -> float | None:
     shapes = [shape.geometry for shape in link.collisions] if link is not None else []
     shapes += [shape.geometry for shape in link.visuals] if link is not None else []
     return next((shape.radius for shape in shapes if isinstance(shape, Cylinder | Sphere)), None)
-
-
-def _placement(joint: Joint, parents: dict[str | None, Joint]) -> Pose:
-    """Return the pose of a joint's frame in the root's frame."""
-    chain = [joint]
-    while (above := parents.get(chain[-1].parent)) is not None:
-        chain.append(above)
-    pose = Pose()
-    for each in reversed(chain):
-        pose = compose(pose, each.origin)
-    return pose

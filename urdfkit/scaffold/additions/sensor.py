@@ -11,6 +11,7 @@ from urdfkit.description.urdf.geometry import box_around_all
 from urdfkit.description.urdf.robot import Robot, Vector
 from urdfkit.description.xacro.expand import expand
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.file_replacement import read_bytes
 from urdfkit.scaffold.additions.file_changes import Alteration
 from urdfkit.scaffold.additions.free_placement import Part
 from urdfkit.scaffold.additions.link_boxes import Boxes
@@ -83,7 +84,7 @@ def add_sensor(
         f'  <origin xyz="{exact(xyz) if request.xyz else written(xyz)}" rpy="{exact(request.rpy)}"/>',
         f"</xacro:{request.kind}_sensor>",
     ]
-    before = _read(path)
+    before = read_bytes(path)
     prefix = xacro_prefix(before) if path.suffix == ".xacro" else None
     alterations: list[Alteration] = []
     if prefix is None:
@@ -112,7 +113,7 @@ def _bridged(package: Path, kind: str, topic: str) -> Iterator[Alteration]:
     files = bridge_configurations(package)
     if len(files) != 1:
         return
-    content = _read(files[0])
+    content = read_bytes(files[0])
     entries = bridge_entries(kind, topic, "ignition.msgs" if b"ignition.msgs" in content else "gz.msgs")
     newline = b"\r\n" if b"\r\n" in content else b"\n"
     end = b"" if content.endswith(b"\n") or not content else newline
@@ -212,7 +213,7 @@ def _macro_file(home: Path, macro: str, kind: str) -> Iterator[Alteration]:
     if not home.exists():
         yield Alteration(home, None, macro.encode("utf-8"))
         return
-    existing = _read(home)
+    existing = read_bytes(home)
     if existing in {sensor_macro(kind, other).encode("utf-8") for other in GENERATIONS} - {macro.encode("utf-8")}:
         yield Alteration(home, existing, macro.encode("utf-8"))
     elif f'name="{kind}_sensor"'.encode() not in existing:
@@ -234,13 +235,6 @@ def _called(macro: str, call: list[str], folder: str) -> Path:
     text = macro.replace("</robot>", "\n".join([*call, "</robot>"])).replace("<robot ", '<robot name="sensor" ', 1)
     file.write_text(text, encoding="utf-8")
     return file
-
-
-def _read(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
 
 
 def _some(alteration: Alteration | None) -> list[Alteration]:

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from urdfkit.errors import ResourceError
+from urdfkit.file_replacement import read_bytes
 from urdfkit.resources import templates_dir
 
 PARAMETERS = "name parent topic update_rate *origin"
@@ -112,10 +112,7 @@ def bridge_entries(kind: str, topic: str, messages: str) -> str:
         ResourceError: the installation is incomplete.
     """
     path = templates_dir() / f"robot/ros2-gz-sensors/{kind}/@name@_gazebo/config/bridge.yaml"
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
+    text = read_bytes(path).decode("utf-8")
     text = re.sub(rf"(?m)(_topic_name: ){KINDS[kind].topic}(?=/|$)", rf"\g<1>{topic.lstrip('/')}", text)
     return text.replace("@gz_msgs@", messages)
 
@@ -126,10 +123,7 @@ def _topic_help(kind: str) -> str:
 
 def _inside(path: Path) -> str:
     """Return the text between ``<robot …>`` and ``</robot>``."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
+    text = read_bytes(path).decode("utf-8")
     return text[text.index(">", text.index("<robot")) + 1 : text.rindex("</robot>")]
 
 

@@ -108,17 +108,11 @@ class Template:
         except UsageError:
             return "", ""
         open_yet = {q.name for q in self.questions if q.interactive and q.name not in enabled and applies(q.when, answers)}
-        for check in self.checks:
-            about = {*re.findall(r"[a-z_]+", check.holds), *check.when}
-            if about & open_yet or not applies(check.when, answers):
-                continue
-            if not (check.holds and holds(check.holds, numbers(answers))):
-                ignored = [other for other in self.checks if other is not check]
-                question = [self.question(last)]
-                return check.otherwise, suggest_change(
-                    question, enabled, answers, check.named, self._accepts(ignored, False)
-                )
-        return "", ""
+        undecided = [each for each in self.checks if open_yet & {*re.findall(r"[a-z_]+", each.holds), *each.when}]
+        if (check := self._failure(answers, undecided)) is None:
+            return "", ""
+        accepts = self._accepts([other for other in self.checks if other is not check], False)
+        return check.otherwise, suggest_change([self.question(last)], enabled, answers, check.named, accepts)
 
     def _filled(self, user_answers: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], Check | None]:
         """Return an answer to every question, and a failing check for a computed answer that is out of range.

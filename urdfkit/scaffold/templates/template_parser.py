@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NoReturn, get_args, get_type_hints
 
 from urdfkit.errors import ResourceError, did_you_mean
+from urdfkit.file_replacement import read_bytes
 from urdfkit.scaffold.templates.expressions import names_in
 from urdfkit.scaffold.templates.template_schema import Check, Fact, Layer, Next, Word
 from urdfkit.scaffold.templates.questions import Question, When
@@ -75,9 +76,7 @@ def load_template(
     """
     path = folder / NAME
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
+        text = read_bytes(path).decode("utf-8")
     except UnicodeDecodeError as error:
         raise ResourceError(f"{path} is not UTF-8: {error.reason}") from error
     return _template(path, text, source, name or folder.name, tuple(sorted((options or {}).items())))

@@ -10,6 +10,7 @@ from urdfkit.atomic import clean_up, move_into_place, staging
 from urdfkit.description import load
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import DescriptionError, ResourceError
+from urdfkit.file_replacement import read_bytes
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.templates.computed_answers import computed
 from urdfkit.scaffold.templates.placeholders import fill
@@ -77,7 +78,7 @@ def wrap(
         if target.exists() or target.is_symlink():
             raise ResourceError(f"{target} already exists; nothing was overwritten")
     meshes = Meshes(file, mesh_folders)
-    text, new = renamed(in_utf8(_read(file)).decode("utf-8", "surrogateescape"), name)
+    text, new = renamed(in_utf8(read_bytes(file)).decode("utf-8", "surrogateescape"), name)
     content = rewritten(
         text.encode("utf-8", "surrogateescape"), meshes, f"{name}_description" if len(kinds) > 1 else ""
     )
@@ -173,10 +174,3 @@ def _drawn(robot: Robot, package: Path, name: str) -> str:
     (package / "docs").mkdir()
     (package / f"docs/{name}.svg").write_text(picture, encoding="utf-8")
     return "yes"
-
-
-def _read(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
