@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from urdfkit.file_replacement import read_bytes
+from urdfkit.errors import ResourceError
 
 MODEL_SUFFIXES = (".urdf", ".xacro")
 """Suffixes of model files."""
@@ -78,7 +78,10 @@ def children(folder: Path) -> list[Path]:
 
 
 def _text(path: Path) -> str:
-    return _COMMENT.sub("", read_bytes(path).decode("utf-8", "replace"))
+    try:
+        return _COMMENT.sub("", path.read_text(encoding="utf-8", errors="replace"))
+    except OSError as error:
+        raise ResourceError(f"{path}: {error.strerror}") from error
 
 
 def robot_name(path: Path) -> str | None:

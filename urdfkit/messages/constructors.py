@@ -1,6 +1,6 @@
 """Short constructors of common messages. Twists are linear first; quaternions x, y, z, w."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from urdfkit.messages.types import TWIST, message_type
@@ -49,6 +49,14 @@ def twist(linear: Sequence[float], angular: Sequence[float]) -> Any:
         1.0
     """
     return message_type(TWIST)(vector(linear), vector(angular))
+
+
+def pose(position: Iterable[float], quaternion: Iterable[float]) -> Any:
+    """Return a ``geometry_msgs/msg/Pose`` [m; x y z w]."""
+    point = message_type("geometry_msgs/msg/Point")(*map(float, position))
+    return message_type("geometry_msgs/msg/Pose")(
+        point, message_type("geometry_msgs/msg/Quaternion")(*map(float, quaternion))
+    )
 
 
 def transform(t: float, frame: str, child: str, position: Sequence[float], quaternion: Sequence[float]) -> Any:

@@ -8,6 +8,7 @@ import numpy as np
 
 from urdfkit.bus import Bus, Topic
 from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twist
+from urdfkit.messages.constructors import pose
 from urdfkit.sim.plugins.wheel_odometry import Twist
 from urdfkit.sim.state.quaternion import yaw_of
 
@@ -113,15 +114,13 @@ class OdometryTopics:
     def message(self, t: float, estimate: Estimate) -> Any:
         """Return the Odometry message."""
         x, y, z = estimate.position
-        pose = message_type("geometry_msgs/msg/Pose")(
-            message_type("geometry_msgs/msg/Point")(x, y, 0.0 if self._flat else z),
-            message_type("geometry_msgs/msg/Quaternion")(*estimate.quaternion),
-        )
         of_pose, of_twist = (covariance.copy() for covariance in self._covariances)
         return message_type(ODOMETRY)(
             header(t, self.frame),
             self.child,
-            message_type("geometry_msgs/msg/PoseWithCovariance")(pose, of_pose),
+            message_type("geometry_msgs/msg/PoseWithCovariance")(
+                pose((x, y, 0.0 if self._flat else z), estimate.quaternion), of_pose
+            ),
             message_type("geometry_msgs/msg/TwistWithCovariance")(twist(estimate.linear, estimate.angular), of_twist),
         )
 

@@ -10,6 +10,7 @@ from typing import Any
 from urdfkit.bus import Bus
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import message_type, vector
+from urdfkit.messages.constructors import pose as pose_message
 from urdfkit.messages.simulation import (
     CLEAR,
     CREATE,
@@ -27,7 +28,7 @@ from urdfkit.sim.state.poses import pose_from
 from urdfkit.sim.state.quaternion import rotate
 from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.world.live_world import LiveWorld
-from urdfkit.sim.world.pose_messages import composed, point_in_frame, pose_message, seven_of, six_of, three
+from urdfkit.sim.world.pose_messages import composed, point_in_frame, seven_of, six_of, three
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request, spawn_request_of_text
 
 Note = Callable[[str], None]
@@ -209,7 +210,7 @@ class ModelStates(Publication):
         states = [(world.pose(name), world.twist(name)) for name in names]
 
         def build() -> Any:
-            poses = [pose_message(pose) for pose, _ in states]
+            poses = [pose_message(each[:3], each[3:]) for each, _ in states]
             twist = message_type("geometry_msgs/msg/Twist")
             twists = [twist(vector(each[:3]), vector(each[3:])) for _, each in states]
             return message_type(MODEL_STATES)(list(names), poses, twists)

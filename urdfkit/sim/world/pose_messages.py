@@ -6,15 +6,7 @@ Poses are x y z [m] and a quaternion x y z w.
 from collections.abc import Sequence
 from typing import Any
 
-from urdfkit.messages import message_type
 from urdfkit.sim.state.quaternion import product, rotate
-
-
-def pose_message(pose: Sequence[float]) -> Any:
-    """Return a ``geometry_msgs/msg/Pose`` of x y z [m] and a quaternion x y z w."""
-    point = message_type("geometry_msgs/msg/Point")(*map(float, pose[:3]))
-    quaternion = message_type("geometry_msgs/msg/Quaternion")(*map(float, pose[3:]))
-    return message_type("geometry_msgs/msg/Pose")(point, quaternion)
 
 
 def three(message: Any) -> tuple[float, float, float]:

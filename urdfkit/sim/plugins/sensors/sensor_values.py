@@ -1,6 +1,6 @@
 """Numbers, pose and rate of a ``<sensor>``; errors contain the position of the invalid value."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import isfinite, isnan
 
 import numpy as np
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import SimulationError
+from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.sim.plugins.parameters import Parameters
 
@@ -42,6 +42,29 @@ def number(
             f"<{tag}> is `{child.text}`; it must be {wanted}", position=child.origin.position, code="Z823"
         )
     return value
+
+
+def choice(parent: Element | None, tag: str, allowed: Sequence[str], default: str, *, in_any_case: bool = False) -> str:
+    """Return the word in a child element; the default if the element is missing or empty.
+
+    Args:
+        parent: parent element; None if it is missing.
+        tag: tag of the child.
+        allowed: the words.
+        default: default word.
+        in_any_case: whether the word may have capital letters.
+
+    Raises:
+        SimulationError: the word is not allowed, with its position.
+    """
+    child = None if parent is None else parent.find(tag)
+    if child is None or not child.text:
+        return default
+    text = child.text.lower() if in_any_case else child.text
+    if text not in allowed:
+        message = f"<{tag}> is `{text}`; it must be {', '.join(allowed)}{did_you_mean(text, allowed)}"
+        raise SimulationError(message, position=child.origin.position)
+    return text
 
 
 def refuse(found: Iterable[tuple[Element, str]]) -> None:

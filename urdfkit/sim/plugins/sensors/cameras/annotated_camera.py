@@ -14,15 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import Array
-from urdfkit.messages import header, message_type
+from urdfkit.messages import header, message_type, vector
+from urdfkit.messages.constructors import pose
 from urdfkit.messages.vision import DETECTIONS_2D, DETECTIONS_3D
 from urdfkit.scene import Shape
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.bounding_boxes import Box2D, Box3D, draw, full_box, space_box, visible_box
 from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Capture
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
+from urdfkit.sim.plugins.sensors.sensor_values import choice
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
@@ -86,14 +87,8 @@ class GzSegmentationCamera(Camera):
     kind = "gz_segmentation_camera"
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        written = self.optics.element.find("segmentation_type")
-        kind = "semantic" if written is None or not written.text else written.text.lower()
-        if kind not in (*SEMANTIC, *PANOPTIC):
-            raise SimulationError(
-                f"<segmentation_type> is `{kind}`; it must be {', '.join((*SEMANTIC, *PANOPTIC))}"
-                + did_you_mean(kind, (*SEMANTIC, *PANOPTIC)),
-                position=None if written is None else written.origin.position,
-            )
+        kinds = (*SEMANTIC, *PANOPTIC)
+        kind = choice(self.optics.element, "segmentation_type", kinds, "semantic", in_any_case=True)
         self._by_instance = kind in PANOPTIC
         name, bus = topics.resolve(read.text("image_topic")), setup.bus
         self.topics = (
@@ -140,14 +135,7 @@ class GzBoundingBoxCamera(Camera):
     kind = "gz_bounding_box_camera"
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        written = self.optics.element.find("box_type")
-        self._type = "2d" if written is None or not written.text else written.text.strip().lower()
-        if self._type not in BOX_TYPES:
-            raise SimulationError(
-                f"<box_type> is `{self._type}`; it must be {', '.join(BOX_TYPES)}"
-                + did_you_mean(self._type, BOX_TYPES),
-                position=None if written is None else written.origin.position,
-            )
+        self._type = choice(self.optics.element, "box_type", BOX_TYPES, "2d", in_any_case=True)
         name, bus = topics.resolve(read.text("image_topic")), setup.bus
         self.topics = (
             bus.advertise(name, DETECTIONS_3D if self._type in SPACE else DETECTIONS_2D),
@@ -202,11 +190,7 @@ def _box_message(box: Box2D | Box3D) -> Any:
         return _type("BoundingBox2D")(middle, float(box.right - box.left), float(box.bottom - box.top))
     import pinocchio
 
-    point, turn, vector, pose = (
-        message_type(f"geometry_msgs/msg/{name}") for name in ("Point", "Quaternion", "Vector3", "Pose")
-    )
-    middle = pose(point(*box.centre.tolist()), turn(*pinocchio.Quaternion(box.axes).coeffs().tolist()))
-    return _type("BoundingBox3D")(middle, vector(*box.size.tolist()))
+    return _type("BoundingBox3D")(pose(box.centre, pinocchio.Quaternion(box.axes).coeffs()), vector(box.size.tolist()))
 
 
 def _type(name: str) -> Any:
@@ -214,8 +198,5 @@ def _type(name: str) -> Any:
 
 
 def _nowhere() -> Any:
-    pose = message_type("geometry_msgs/msg/Pose")(
-        message_type("geometry_msgs/msg/Point")(0.0, 0.0, 0.0),
-        message_type("geometry_msgs/msg/Quaternion")(0.0, 0.0, 0.0, 1.0),
-    )
-    return message_type("geometry_msgs/msg/PoseWithCovariance")(pose, np.zeros(36))
+    nowhere = pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    return message_type("geometry_msgs/msg/PoseWithCovariance")(nowhere, np.zeros(36))

@@ -9,6 +9,7 @@ from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.messages import header, message_type
+from urdfkit.messages.constructors import pose
 from urdfkit.messages.sensors import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.plugins.parameters import Parameters
@@ -71,8 +72,4 @@ class GzLogicalCamera(SceneSensor):
 
 
 def _pose(placement: Array) -> Any:
-    turn = from_matrix(placement[:3, :3])
-    return message_type("geometry_msgs/msg/Pose")(
-        message_type("geometry_msgs/msg/Point")(*placement[:3, 3].tolist()),
-        message_type("geometry_msgs/msg/Quaternion")(*turn.tolist()),
-    )
+    return pose(placement[:3, 3], from_matrix(placement[:3, :3]))

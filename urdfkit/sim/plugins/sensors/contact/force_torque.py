@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.messages import header, message_type, vector
@@ -21,7 +20,7 @@ from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.sensors.contact.joint_load import Wrench, below, lumps_of, momentum, weight
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
-from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
+from urdfkit.sim.plugins.sensors.sensor_values import choice, pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.robot_state import State
 
@@ -211,25 +210,15 @@ class GzForceTorque(ForceTorque):
         read = self.parameters(setup, joint=setup.link, sensor=self.name)
         self.rate = rate_of(sensor.element, read)
         inside = sensor.element.find("force_torque")
-        self._axes_of = self._choice(inside, "frame", FRAMES, "child")
-        self._sign = (
-            -1.0 if self._choice(inside, "measure_direction", DIRECTIONS, DIRECTIONS[0]) == DIRECTIONS[0] else 1.0
-        )
+        self._axes_of = choice(inside, "frame", FRAMES, "child")
+        direction = choice(inside, "measure_direction", DIRECTIONS, DIRECTIONS[0])
+        self._sign = -1.0 if direction == DIRECTIONS[0] else 1.0
         kinds = [None if inside is None else inside.find(tag) for tag in ("force", "torque")]
         self._noises = tuple(
             noise_of(None if kind is None else kind.find(axis), setup.random) for kind in kinds for axis in "xyz"
         )
         self.frame = (read.text("frame") or read.text("old_frame") or read.text("default_frame")).lstrip("/")
         self.topics = (setup.bus.advertise(self.topic_names().resolve(read.text("topic")), WRENCH),)
-
-    @staticmethod
-    def _choice(inside: Element | None, tag: str, allowed: tuple[str, ...], default: str) -> str:
-        child: Element | None = None if inside is None else inside.find(tag)
-        text = "" if child is None else child.text
-        if child is not None and text and text not in allowed:
-            message = f"<{tag}> is `{text}`; it must be {', '.join(allowed)}" + did_you_mean(text, allowed)
-            raise SimulationError(message, position=child.origin.position)
-        return text or default
 
     def _axes(self, now: KinematicSnapshot) -> Array:
         if self._axes_of == "parent":

@@ -11,6 +11,7 @@ import numpy as np
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import ODOMETRY, header, message_type, twist
+from urdfkit.messages.constructors import pose
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, PointMotion
 from urdfkit.sim.plugins.setup import Setup
@@ -81,15 +82,12 @@ class P3d(Sensor):
         motion = self._seen_from_there(now, now.motion(self._link, np.eye(4)))
         random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
         shaken = self._noise * random.standard_normal((2, 3))
-        x, y, z = (motion.position + self._offset).tolist()
+        position = (motion.position + self._offset).tolist()
         quaternion = product(self._turn, from_matrix(motion.rotation))
         covariance = np.diag([self._noise**2] * 6).ravel()
-        pose = message_type("geometry_msgs/msg/Pose")(
-            message_type("geometry_msgs/msg/Point")(x, y, z), message_type("geometry_msgs/msg/Quaternion")(*quaternion)
-        )
         moving = twist((motion.linear + shaken[0]).tolist(), (motion.angular + shaken[1]).tolist())
         return message_type(ODOMETRY)(
             header(now.t, self._frame), self._link,
-            message_type("geometry_msgs/msg/PoseWithCovariance")(pose, covariance),
+            message_type("geometry_msgs/msg/PoseWithCovariance")(pose(position, quaternion), covariance),
             message_type("geometry_msgs/msg/TwistWithCovariance")(moving, covariance.copy()),
         )  # fmt: skip
