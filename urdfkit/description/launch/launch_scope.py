@@ -82,18 +82,6 @@ class LaunchNode:
 
 
 @record(eq=False)
-class LoadedParameters:
-    """A YAML file that a ROS 1 launch file loads, and the namespace of its contents; see `LaunchNode`."""
-
-    path: Path
-    line: int
-    column: int
-    file: Path
-    namespace: str
-    is_skipped: bool
-
-
-@record(eq=False)
 class LaunchContents:
     """Xacro commands, packages and nodes of a launch file and of the files it includes.
 
@@ -104,7 +92,6 @@ class LaunchContents:
         included: the launch files it includes, directly or indirectly.
         descriptions: launch argument → its description.
         nodes: its nodes, including nodes that these launch arguments do not start.
-        loaded: the YAML files that it loads in ROS 1.
         outside: package of each included launch file that was not found, and the namespace.
     """
 
@@ -114,7 +101,6 @@ class LaunchContents:
     included: list[Path] = field(default_factory=list)
     descriptions: dict[str, str] = field(default_factory=dict)
     nodes: list[LaunchNode] = field(default_factory=list)
-    loaded: list[LoadedParameters] = field(default_factory=list)
     outside: list[tuple[str, str]] = field(default_factory=list)
 
 

@@ -10,7 +10,6 @@ from urdfkit.description.launch.launch_scope import (
     UNKNOWN,
     LaunchNode,
     LaunchScope,
-    LoadedParameters,
     PlacedText,
     is_false,
     is_true,
@@ -70,13 +69,10 @@ def _read_element(element: Element, tag: str, name: str, scope: LaunchScope) -> 
     elif tag == "executable":
         for program in _text(element, "cmd", scope).split()[:1]:
             scope.start(program)
-    elif tag == "rosparam":
-        _load(element, scope)
     elif tag in (*_NODES, "group", "launch", "composable_node"):
         scope.start(_text(element, "pkg", scope))
         if tag in _NODES:
             scope.found.nodes.append(_node(element, scope))
-            scope.namespace = f"{scope.namespace}/{_text(element, 'name', scope)}"  # of private parameters
         read_elements(element.children, scope)
 
 
@@ -101,17 +97,6 @@ def _node(element: Element, scope: LaunchScope) -> LaunchNode:
         scope.is_skipped,
         scope.spaced_at,
     )
-
-
-def _load(element: Element, scope: LaunchScope) -> None:
-    """Record a YAML file that ``<rosparam>`` loads."""
-    file = scope.file(_text(element, "file", scope)) if "file" in element.attributes else None
-    if file is not None and (element.get("command") or "load") == "load":
-        space, position = scope.namespace, element.origin.position
-        if "param" in element.attributes:
-            space = scope.below(_text(element, "param", scope))
-        loaded = LoadedParameters(scope.path, position.line, position.column, file, space.strip("/"), scope.is_skipped)
-        scope.found.loaded.append(loaded)
 
 
 def _included_arguments(element: Element, scope: LaunchScope) -> Iterator[tuple[str, str]]:
