@@ -255,7 +255,7 @@ def clean_up(folder: Path) -> None:
         return
     for path in folder.glob(f"{_TEMPORARY_PREFIX}{_host()}-*-*"):
         process = path.name.removeprefix(f"{_TEMPORARY_PREFIX}{_host()}-").partition("-")[0]
-        if process.isdigit() and not _is_alive(int(process)):
+        if process.isdigit() and not is_alive(int(process)):
             with suppress(OSError):
                 if path.is_dir():
                     _complete(path, folder)
@@ -277,10 +277,11 @@ def _complete(staged: Path, folder: Path) -> None:
                 (staged / name).rename(folder / name)
 
 
-def _is_alive(process: int) -> bool:
+def is_alive(process: int) -> bool:
+    """Return whether a process with this number, above 0, exists."""
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
+    except (ProcessLookupError, OverflowError):
         return False
     except OSError:
         return True

@@ -11,12 +11,13 @@ from urdfkit.app.replay.observed_session import ObservedSession
 from urdfkit.app.simulation.displays.displays import POSES, pose_message
 from urdfkit.app.simulation.displays.interactive_markers import SERVICE
 from urdfkit.app.simulation.features.feature import Done
+from urdfkit.app.simulation.features.teleop import controls_of
 from urdfkit.app.simulation.features.topic_panel import ECHO
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.bridges.node.node import Node
 from urdfkit.bus import Bus, absolute
 from urdfkit.messages import TWIST, TWIST_STAMPED, from_fields, full_type_name
-from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, STOP, Motion, Teleop
+from urdfkit.teleop import STOP, Motion, Teleop
 from urdfkit.view.protocol.page_requests import Request
 from urdfkit.view.server.server import Server
 
@@ -68,16 +69,7 @@ class LiveSession(ObservedSession):
 
     def drive_controls(self) -> dict[str, Any]:
         """Return the controls of the page: the robot can be driven."""
-        start, name = Teleop(), self._shown.kinematics.robot.name or "robot"
-        robots = [{"name": name, "drives": True}]
-        return {
-            "drives": True,
-            "robots": robots,
-            "moves": HELD_LAYOUT,
-            "factors": HELD_SPEEDS,
-            "speed": start.speed,
-            "turn": start.turn,
-        }
+        return controls_of([{"name": self._shown.kinematics.robot.name or "robot", "drives": True}])
 
     def act(self, action: str) -> None:
         """Stop the robot with the button; the others have no effect on a live robot."""

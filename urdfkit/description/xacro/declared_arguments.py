@@ -1,7 +1,9 @@
 """Arguments that the files of a description declare with ``<xacro:arg>``, also where a condition excludes them."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import XmlError, did_you_mean, shortened
@@ -14,15 +16,17 @@ def declared_arguments(sources: Iterable[Source]) -> dict[str, str | None]:
         sources: the files; the first declaration of an argument applies.
     """
     declared: dict[str, str | None] = {}
-    for source in sources:
-        try:
-            document = document_of(source)
-        except XmlError:
-            continue
-        for element in document.walk():
-            if element.tag.rpartition(":")[2] == "arg" and (name := element.get("name")):
-                declared.setdefault(name, element.get("default"))
+    for element in _elements("arg", sources):
+        if name := element.get("name"):
+            declared.setdefault(name, element.get("default"))
     return declared
+
+
+def _elements(tag: str, sources: Iterable[Source]) -> Iterator[Element]:
+    """Yield the elements with a tag, in any namespace, of the files that are XML."""
+    for source in sources:
+        with suppress(XmlError):
+            yield from (each for each in document_of(source).walk() if each.tag.rpartition(":")[2] == tag)
 
 
 def is_used(name: str, sources: Iterable[Source]) -> bool:
@@ -44,17 +48,10 @@ def macro_parameters(macro: str, sources: Iterable[Source]) -> list[str]:
     from urdfkit.description.xacro.evaluation.parameters import parameters
 
     found: dict[str, None] = {}
-    for source in sources:
-        try:
-            document = document_of(source)
-        except XmlError:
-            continue
-        for element in document.walk():
-            if element.tag.rpartition(":")[2] == "macro" and (element.get("name") or "").rpartition(":")[2] == macro:
-                try:
-                    found.update((each.name, None) for each in parameters(element.get("params") or ""))
-                except ValueError:
-                    continue
+    for element in _elements("macro", sources):
+        if (element.get("name") or "").rpartition(":")[2] == macro:
+            with suppress(ValueError):
+                found.update((each.name, None) for each in parameters(element.get("params") or ""))
     return [name for name in found if not name.startswith("*")]
 
 

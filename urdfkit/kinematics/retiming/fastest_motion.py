@@ -94,8 +94,6 @@ def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -
     """
     points = np.asarray(waypoints, float)
     _check_waypoints(points, limits)
-    points = np.asarray(waypoints, float)
-    _check_waypoints(points, limits)
     changes = np.any(np.diff(points, axis=0) != 0.0, axis=1)
     index = np.concatenate([[0], np.cumsum(changes)])
     points = points[np.concatenate([[True], changes])]

@@ -7,13 +7,14 @@ from math import dist
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.kinematics.mimic import couplings
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.kinematics.self_collision.box_overlap import overlapping
 from urdfkit.kinematics.self_collision.collision_shapes import box_around, neighbours, shapes_by_link
 from urdfkit.kinematics.self_collision.pair_check import PairCheck
-from urdfkit.kinematics.self_collision.random_configurations import default, joints_from_root, link_poses, ranges
+from urdfkit.kinematics.self_collision.random_configurations import default, link_poses, ranges
 from urdfkit.linear_algebra import Array
 
 BLOCK = 10_000
@@ -136,7 +137,7 @@ def _moving_joints(robot: Robot, variables: Collection[str]) -> dict[str, frozen
     moving = {name.partition("/")[0] if name not in robot.joint_by_name else name for name in variables}
     root = robot.roots()[0].name
     found: dict[str, frozenset[str]] = {root: frozenset()}
-    for joint in joints_from_root(robot, root):
+    for joint in tree_order(robot):
         leader = coupled[joint.name].master if joint.name in coupled else joint.name
         above = found[joint.parent or ""]
         found[joint.child or ""] = above | {joint.name} if leader in moving else above

@@ -1,11 +1,12 @@
 """Random configurations of a whole robot, and the poses of its links in them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from math import pi
 
 import numpy as np
 
-from urdfkit.description.urdf.robot import Joint, Robot
+from urdfkit.description.urdf.queries import tree_order
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.kinematics.joint_limits import position_limits
 from urdfkit.kinematics.mimic import couplings
 from urdfkit.kinematics.self_collision.collision_shapes import placement
@@ -50,7 +51,7 @@ def link_poses(robot: Robot, positions: Mapping[str, Array]) -> dict[str, tuple[
         followed[name] = coupling.multiplier * master + coupling.offset
     root = robot.roots()[0].name
     poses = {root: (np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3)))}
-    for joint in joints_from_root(robot, root):
+    for joint in tree_order(robot):
         assert joint.parent is not None
         assert joint.child is not None
         rotation, translation = poses[joint.parent]
@@ -66,16 +67,6 @@ def link_poses(robot: Robot, positions: Mapping[str, Array]) -> dict[str, tuple[
                 placed = placed @ _turns(axis, values)
         poses[joint.child] = placed, translation
     return poses
-
-
-def joints_from_root(robot: Robot, root: str) -> Iterator[Joint]:
-    """Yield the joints of a tree, each after the joint of its parent."""
-    waiting = [root]
-    while waiting:
-        for joint in robot.children_of.get(waiting.pop(), ()):
-            yield joint
-            if joint.child is not None:
-                waiting.append(joint.child)
 
 
 def _turns(axis: Array, angles: Array) -> Array:

@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from urdfkit.atomic import is_alive
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.view.server.saved_tokens import private_folder, read_private, write_private
 
@@ -125,17 +126,5 @@ def _registered(folder: Path, *, lives: bool) -> Iterator[tuple[Running, Path]]:
             running = Running(str(found["url"]), str(found["robot"]), int(found["process"]))
         except (OSError, ValueError, KeyError, TypeError):
             continue
-        if _lives(running.process) == lives:
+        if (running.process > 0 and is_alive(running.process)) == lives:
             yield running, path
-
-
-def _lives(process: int) -> bool:
-    if process <= 0:
-        return False
-    try:
-        os.kill(process, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except PermissionError:
-        return True
-    return True

@@ -10,14 +10,19 @@ from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 def drive_controls(simulator: Simulator) -> dict[str, Any]:
     """Return the controls of the page: robots that accept commands, key tables and initial speeds."""
-    from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, Teleop
-
-    start = Teleop()
     robots = [
         {"name": name, "drives": bool(command_topics(robot))}
         for name, robot in simulator.world.robots.items()
         if robot.has_plugins or name == simulator.name
     ]
+    return controls_of(robots)
+
+
+def controls_of(robots: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Return the controls of the page for robots with their names, and whether they accept commands."""
+    from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, Teleop
+
+    start = Teleop()
     return {
         "drives": any(robot["drives"] for robot in robots),
         "robots": robots,
