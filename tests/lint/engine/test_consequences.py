@@ -113,7 +113,7 @@ ROBOTS = {
     + JOINT.format("b_joint", "a", "a", ""),
     "T205": A + B + '<link name="c"/>' + JOINT.format("d", "a", "b_link", "") + JOINT.format("e", "c", "b_link", ""),
     "T206": ARMS + '<link name="tool"/>' + JOINT.format("grip", "right_hand", "tool", ""),
-    "X104": MACRO.format("name wdth", BALL) + '<xacro:part name="a" width="1"/>',
+    "X104": MACRO.format("name wdth colour:=red", BALL) + '<xacro:part name="a" width="1"/>',
     "T202": MACRO.format("p", TOOL) + '<xacro:part p="left_"/>',
     "J408": A + '<link name="optical_frame"/>' + JOINT.format("eye", "a", "optical_frame", 'rpy="-90 0 -90"'),
     "I514": LINK.format("a", 9000, i=0.002),
@@ -177,3 +177,54 @@ def test_a_mesh_shows_a_cylinder_with_radius_and_length_swapped() -> None:
         ("has the radius and length of the visual shape swapped", "swap radius and length", "geometry"),
         None,
     )
+
+
+LIFT = """  <joint name="{0}_lift" type="prismatic"><parent link="base"/><child link="{0}_load"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="0.1" effort="5" velocity="1"/></joint>"""
+
+
+@pytest.mark.parametrize(("heavy", "lifts"), [("left_load", ["right_lift"]), ("base", ["left_lift", "right_lift"])])
+def test_a_wrong_mass_explains_only_the_lift_that_carries_it(tmp_path: Path, heavy: str, lifts: list[str]) -> None:
+    links = "".join(
+        LINK.format(name, 9000 if name == heavy else 10, i=0.02) for name in ("base", "left_load", "right_load")
+    )
+    (tmp_path / "lift.urdf").write_text(
+        f'<robot name="lift">{links}{LIFT.format("left")}{LIFT.format("right")}</robot>'
+    )
+    assert [each.joint for each in lint(tmp_path / "lift.urdf") if each.code == "J429"] == lifts
+
+
+def test_a_malformed_yaml_file_is_one_finding(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text('<package format="3"><name>arm</name><version>1.0.0</version></package>')
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config/sizes.yaml").write_text("base:\n    length: 0.7\n  width: 0.5\n")
+    load = """<xacro:property name="sizes" value="${xacro.load_yaml('config/sizes.yaml')}"/>"""
+    text = f'<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">{load}<link name="a"/></robot>'
+    (tmp_path / "arm.urdf.xacro").write_text(text)
+    found = [(each.code, each.line) for each in lint(tmp_path) if each.code in ("K966", "X124")]
+    assert found == [("K966", 2)]
+
+
+def test_a_block_of_a_macro_explains_only_the_joints_in_the_blocks_of_its_calls(tmp_path: Path) -> None:
+    macro = '<xacro:macro name="group" params="*parts"><link name="a"/></xacro:macro>'
+    joint = JOINT.format("wrist", "a", "b", "")
+    call = f'<xacro:group><parts>{joint}<link name="b"/></parts></xacro:group>'
+    hardware = "<hardware><plugin>mock_components/GenericSystem</plugin></hardware>"
+    control = "".join(f'<joint name="{name}"><state_interface name="position"/></joint>' for name in ("wrist", "elbow"))
+    control = f'<ros2_control name="arm" type="system">{hardware}{control}</ros2_control>'
+    text = f'<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">{macro}{call}{control}</robot>'
+    (tmp_path / "arm.urdf.xacro").write_text(text)
+    found = [(each.code, each.joint) for each in lint(tmp_path / "arm.urdf.xacro") if each.code in ("X128", "C707")]
+    assert found == [("X128", None), ("C707", "elbow")]
+
+
+def test_a_malformed_file_does_not_make_its_macros_calls_of_others(tmp_path: Path) -> None:
+    (tmp_path / "arm.xacro").write_text(
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n<xacro:macro name="robot_arm" params="name">\n'
+        '<link name="${name}">\n<visul>\n</visual>\n</link>\n</xacro:macro>\n<visual/>\n</robot>'
+    )
+    head = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="arm.xacro"/>'
+    macro = '<xacro:macro name="robot_am" params="name"><link name="base"/></xacro:macro>'
+    text = f'{head}{macro}<xacro:robot_am name="base"/><xacro:robot_arm name="arm"/></robot>'
+    (tmp_path / "robot.urdf.xacro").write_text(text)
+    assert [(each.code, each.line) for each in lint(tmp_path / "robot.urdf.xacro")] == [("E001", 4)]

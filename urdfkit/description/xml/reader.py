@@ -138,6 +138,11 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         raise XmlError("the text contains an unpaired surrogate", position=source.position(error.start)) from None
 
 
+def _count(tag: str, source: Source) -> int:
+    """Return the number of start tags, or with a slash of end tags, of a name."""
+    return len(re.findall(rf"<{re.escape(tag)}(?![\w:.-])", source.text))
+
+
 def _explain(text: str, source: Source, position: Position, opened: list[tuple[str, Position]]) -> tuple[str, Position]:
     """Return the reason of an error and the place to correct: the tag or quote that is not closed, if there is one."""
     tag, start = opened[-1] if opened else (None, position)
@@ -145,7 +150,8 @@ def _explain(text: str, source: Source, position: Position, opened: list[tuple[s
     if text == "mismatched tag" and tag:
         found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
         end = found[1] if found else ""
-        if any(outer == end for outer, _ in opened[:-1]) and source.text.startswith(
+        is_misspelt = end and _count(tag, source) == 1 and _count(end, source) > 0 == _count(f"/{tag}", source)
+        if (is_misspelt or any(outer == end for outer, _ in opened[:-1])) and source.text.startswith(
             f"<{tag}", source.offset(start.line, start.column)
         ):
             return f"mismatched tag: `<{tag}>` is not closed before `</{end}>` of line {position.line}", start

@@ -13,6 +13,7 @@ from urdfkit.lint.engine.contradictions import at_wrong_side
 from urdfkit.lint.engine.package_without_robot import empty_root, package_model, package_rules
 from urdfkit.lint.engine.rule_runner import RuleRunner
 from urdfkit.lint.facts.values.missing_calls import with_missing_calls
+from urdfkit.lint.facts.values.renamed_definitions import with_renamed_definitions
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.element_facts import ElementFacts
 from urdfkit.lint.model.model import Model
@@ -224,7 +225,7 @@ class Checker:
 
             findings, used, unused = without_suppressed(findings, model, entry, options, self.runner)
         if model.target != "urdfkit":
-            findings = at_wrong_side(with_missing_calls(findings, model))
+            findings = at_wrong_side(with_missing_calls(with_renamed_definitions(findings, model), model))
         here = str(Path.cwd())
         related = model.related_files if model.expanded.root is not None else ()
         read = (*model.expanded.sources, *related, *(each.file for each in findings))  # such as YAML files of xacro

@@ -37,6 +37,9 @@ _OF_WHOLE_ROBOT = frozenset(("J429", "K970", "S901", "S908", "S911", "S915", "S9
 _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
 """Findings on a robot whose package.xml names the build system of the other version of ROS."""
 
+_OF_JOINTS = (("C707", "undefined"), ("K959", ""))
+"""Findings on undefined joints in ``<ros2_control>`` and in settings of controllers."""
+
 _OF_GROUPS = (("M105", "group"), ("M107", "foreign"), ("M109", "foreign"))
 """Findings on groups of an SRDF that lack joints or links."""
 
@@ -151,8 +154,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("M104", ""), "meant", ("M105", "")),
     (("M104", ""), "name", ("M105", "")),
     (("M104", ""), "name", ("M107", "")),
-    (("M104", "unused"), "names", ("M108", "")),
-    (("M104", "unused"), "names", ("M109", "")),
+    (("M104", ""), "names", ("M108", "")),
+    (("M104", ""), "names", ("M109", "")),
     *((("M105", "side"), "name", each) for each in _OF_GROUPS),
     (("M106", ""), "name", ("M107", "")),
     (("M107", "foreign"), "name", ("M109", "foreign")),
@@ -218,17 +221,26 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("J408", ""), "line", ("S915", "")),
     (("S907", ""), "line", ("S909", "")),
     (("S909", ""), "name", ("K970", "")),
-    (("G619", ""), "robot", ("S910", "")),
-    (("G619", ""), "robot", ("K970", "")),
-    (("I514", ""), "robot", ("J429", "")),
+    (("G619", ""), "name", ("S910", "")),
+    (("I514", ""), "name", ("J429", "")),
     (("T206", "call"), "robot", ("T207", "")),
     (("T206", ""), "robot", ("J416", "")),
+    (("T201", ""), "name", ("I511", "")),
     (("T202", ""), "names", ("T201", "")),
+    (("T204", ""), "robot", ("T203", "")),
+    (("S917", ""), "name", ("J424", "")),
+    (("J421", ""), "robot", ("K979", "size")),
+    (("K966", ""), "robot", ("X124", "load_yaml")),
+    (("K972", ""), "meant", ("K956", "")),
+    (("L101", ""), "meant", ("L102", "")),
+    *(((code, ""), "robot", ("K968", "height")) for code in _OF_VALUES),
+    (("X104", ""), "line", ("X119", "")),
+    (("C721", ""), "name", ("C720", "")),
     (("X103", ""), "line", ("X104", "")),
-    (("X128", ""), "robot", ("C707", "undefined")),
-    (("X128", ""), "robot", ("K959", "")),
+    *((("X128", "calls"), "robot", each) for each in _OF_JOINTS),
+    *((("X128", ""), "name", each) for each in _OF_JOINTS),
     *(((code, ""), "robot", (other, "")) for code in _OF_TREE for other in _ON_PLACES),
-    *(((code, ""), "unknown", (other, "")) for code in _OF_VALUES for other in _ON_PLACES),
+    *(((code, ""), "unknown", (other, "")) for code in _OF_VALUES for other in (*_ON_PLACES, "I513")),
     *(((code, ""), "robot", ("S920", "")) for code in _PLACES),
     *(((code, ""), "robot", ("S921", "")) for code in (*_PLACES, "S920")),
 )

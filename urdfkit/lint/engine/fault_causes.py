@@ -13,12 +13,18 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Position
+    from urdfkit.lint.facts.values.renamed_definitions import RenamedDefinitions
     from urdfkit.lint.facts.values.value_sources import ValueSources
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Document, Tag
 
 _CODES = ("X103", "X104", "X124")
+_CALL = "X107"
+"""Code of findings on calls, whose macro may have a renamed parameter."""
+
 _FIND = re.compile(r"\$\(find\s+([^\s()]+)\s*\)")
+_EXPRESSION = re.compile(r"\$\{[^{}]*\}|\$\([^()]*\)")
 _PROPERTY = re.compile(r"<xacro:property\s[^<>]*\bname\s*=\s*[\"']([^\"']*)[\"']")
 
 
@@ -27,7 +33,7 @@ def at_missing_definitions(findings: list[Finding], model: Model) -> list[Findin
 
     Parameters of a macro without a value are left out, because the value in the call is a finding itself.
     """
-    if not any(finding.code in _CODES for finding in findings):
+    if not any(finding.code in (*_CODES, _CALL) for finding in findings):
         return findings
     from urdfkit.lint.facts.values.value_sources import ValueSources
 
@@ -37,14 +43,16 @@ def at_missing_definitions(findings: list[Finding], model: Model) -> list[Findin
     is_parameter = [each.code in _CODES and _is_parameter(each, model) for each in findings]
     has_cause = any(each.code in _CODES and not of_macro for each, of_macro in zip(findings, is_parameter, strict=True))
     for finding, of_macro in zip(findings, is_parameter, strict=True):
-        if finding.code not in _CODES:
+        if finding.code not in (*_CODES, _CALL):
             found.append(finding)
             continue
         if has_cause and of_macro:
             continue
         cause = causes.of(finding)
         named = finding.names[0] if finding.code == "X104" and finding.names else None
-        key = (finding.code, named or (cause.span if cause is not None else None))
+        at = cause.span if cause is not None else None
+        is_renamed = cause is not None and cause.is_renamed
+        key = ("renamed", at) if is_renamed else (finding.code, named or at)
         first = places.get(key)
         if cause is None and named is None:
             found.append(finding)
@@ -65,11 +73,15 @@ class _Cause:
         span: the place.
         help: what to do there.
         namespace: the namespace that an include lacks.
+        message: the defect at that place; empty for the message of the finding.
+        is_renamed: whether the definition there has another name than its uses.
     """
 
     span: Span
     help: str
     namespace: str = ""
+    message: str = ""
+    is_renamed: bool = False
 
 
 @record(eq=False)
@@ -96,6 +108,8 @@ def _moved(finding: Finding, cause: _Cause) -> Finding:
     details = {"span": cause.span, "help": used, "fix": None, "chains": (), "related": (finding,)}
     if finding.code == "X103" and cause.namespace:
         details["message"] = f"namespace `{cause.namespace}` of macros is not defined"
+    elif cause.message:
+        details["message"] = cause.message
     return Finding(**{**finding.__dict__, **details})
 
 
@@ -117,10 +131,52 @@ class _Causes:
         """Return the place where a definition is missing; None if it is unknown."""
         if finding.code == "X124":
             return self._in_yaml(finding)
+        renamed = self._renamed(finding)
+        if renamed is not None or finding.code == _CALL:
+            return renamed
         key = (finding.code, finding.names[0] if finding.names else "", finding.file)
         if key not in self._found:
             self._found[key] = self._of_name(*key)
         return self._found[key]
+
+    def _renamed(self, finding: Finding) -> _Cause | None:
+        """Return the definition of a macro, property or parameter that has another name than its uses."""
+        expanded, name = self._model.expanded, finding.names[0] if finding.names else ""
+        if finding.code != _CALL:
+            macro = expanded.macros.get(finding.meant) if finding.code == "X103" else None
+            at = macro.position if macro is not None else expanded.properties.get(finding.meant)
+            if at is None or not name or not self._definitions.is_wrong(finding.meant, name, (at.file, at.line)):
+                return self._renamed_parameter(finding, name) if finding.code == "X104" else None
+            what = f"{'macro' if finding.code == 'X103' else 'property'} `{finding.meant}`"
+            return self._at_definition(at, "name", what, name)
+        return self._renamed_parameter(finding, name)
+
+    def _renamed_parameter(self, finding: Finding, name: str) -> _Cause | None:
+        """Return the parameters of the macro that a finding is in, or calls, if its body uses another name."""
+        around = [chain[0].macro.rpartition(".")[2] for chain in finding.chains if chain]
+        macros = finding.names[1:] if finding.code == _CALL else around
+        macro = self._model.expanded.macros.get(macros[0] or "") if macros else None
+        tag = self._model.tag(macro.position) if macro is not None else None
+        if macro is None or tag is None or not name or name in macro.parameters:
+            return None
+        text = self._model.document(macro.position.file).source.text[tag.end : tag.close_end]
+        words = re.findall(r"\w+", " ".join(each[0] for each in _EXPRESSION.finditer(text)))
+        unused = [each for each in macro.parameters if each not in words and each not in text]
+        calls = (each for each in self._model.expanded.faults if each.kind == "macro-arguments")
+        is_passed = any(each.name == macros[0] and name in each.details.get("unknown", ()) for each in calls)
+        if name not in words or len(unused) != 1 or not is_passed:
+            return None
+        return self._at_definition(macro.position, "params", f"parameter `{unused[0]}` of macro `{macros[0]}`", name)
+
+    def _at_definition(self, at: Position, attribute: str, what: str, name: str) -> _Cause:
+        message = f"{what} is not used; did you mean `{name}`, which is used but undefined?"
+        return _Cause(self._model.span(at, attribute), f"write `{name}`", "", message, is_renamed=True)
+
+    @cached_property
+    def _definitions(self) -> RenamedDefinitions:
+        from urdfkit.lint.facts.values.renamed_definitions import RenamedDefinitions
+
+        return RenamedDefinitions(self._model)
 
     def _of_name(self, code: str, name: str, file: str) -> _Cause | None:
         if code == "X103":

@@ -9,7 +9,7 @@ from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure
 from urdfkit.description.xacro.evaluation.macros import Macro, found_macro
 from urdfkit.description.xacro.evaluation.tree import Tag
-from urdfkit.description.xacro.faults import Unprefixed
+from urdfkit.description.xacro.faults import Fault, Unprefixed
 from urdfkit.description.xacro.recovery.call_repairs import fit, is_call_of, near_macros
 from urdfkit.description.xacro.recovery.missing_prefix import looks_like_a_call, rename
 from urdfkit.description.xacro.recovery.unknown_values import Recorded
@@ -44,6 +44,7 @@ class RecoveringCalls(Evaluator):
     _loops: set[str]
     _uncalled: set[str]
     _exceeded: set[str]
+    _faults: dict[Any, Fault]
 
     def _record(self, failure: Failure | XmlError) -> None:
         raise NotImplementedError
@@ -85,7 +86,8 @@ class RecoveringCalls(Evaluator):
             mark_late(failure, "macro", name, macro.body.position)
             self._record(failure)
             return name, self.top_macros, self.top_scope, macro
-        for near in near_macros(name, failure.facts.get("candidates", ())):
+        is_broken = any(each.kind == "xml" for each in self._faults.values())  # and that file may define the macro
+        for near in near_macros(name, failure.facts.get("candidates", ())) if not is_broken else ():
             try:
                 inner_macros, inner_scope, macro = found_macro(near, macros, scope)
             except KeyError:

@@ -205,7 +205,10 @@ def _plugins(node: Node) -> Defects:
         for item, word in listed:
             has_type = key.text == "observation_sources" or is_default
             if word in defined and not has_type and "plugin" not in _keys(defined[word][1]):
-                yield defined[word][0], f"`{key.text}` lists `{word}`, whose section has no `plugin`"
+                misspelt = [each for each, _ in defined[word][1].entries if nearest(each.text, ["plugin"], cutoff=0.8)]
+                hint = Suggestion("plugin", misspelt[0].text) if misspelt else ""
+                place = misspelt[0] if misspelt else defined[word][0]
+                yield place, f"`{key.text}` lists `{word}`, whose section has no `plugin`" + hint
             if word in defined or any(each.text.startswith(f"{word}.") for each, _ in node.entries):
                 continue
             near = nearest(word, unlisted, cutoff=0.6) or (

@@ -3,6 +3,7 @@
 from math import dist
 
 from urdfkit.description.urdf.robot import GazeboBlock, SensorTag
+from urdfkit.description.xml.source import Span
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id")
@@ -72,7 +73,16 @@ class SensorFrameElsewhere(RobotRule):
                         message = f"<{element.tag}> names link `{(element.text or '').strip()}`, {distance:.3g} m away "
                         message += f"from link `{block.reference}` with the sensor"
                         help = f"write `{block.reference}`"
-                        yield self.at(model, element, message, link=block.reference, help=help)
+                        other = _parent_of_frame((element.text or "").strip(), model)
+                        yield self.at(
+                            model,
+                            element,
+                            message,
+                            link=block.reference,
+                            help=f"connect it to `{block.reference}`" if other is not None else help,
+                            other=other,
+                            is_other_wrong=other is not None,
+                        )
 
     def _of_other_sensor(self, sensor: SensorTag, block: GazeboBlock, model: Model) -> Findings:
         """Yield a finding for an IMU, GPS or similar sensor with the frame or the link of another type of sensor."""
@@ -95,3 +105,12 @@ class SensorFrameElsewhere(RobotRule):
                 message = f"sensor `{sensor.name}` is on link `{block.reference}` of another sensor, not on `{frame}`"
                 help, place = f'write reference="{frame}"', block.element
                 yield self.at(model, place, message, attribute="reference", link=block.reference, help=help)
+
+
+def _parent_of_frame(name: str, model: Model) -> Span | None:
+    """Return the parent in the joint of an optical frame, which only turns it, so it belongs to the sensor's link."""
+    joint = next(iter(model.robot.parents_of.get(name, ())), None)
+    if joint is None or "optical" not in name or any(joint.origin.xyz) or not any(joint.origin.rpy):
+        return None
+    parent = joint.element.find("parent")
+    return model.span(parent.origin.position, "link") if parent is not None else None

@@ -59,7 +59,7 @@ class MaterialUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each use of an undefined material."""
         is_fragment = not model.robot.element.get("name") and model.is_incomplete
-        if model.missing_file or is_fragment:
+        if model.missing_file or is_fragment or any(each.name is None for each in model.robot.materials):
             return
         used = [visual.material for link in model.robot.links for visual in link.visuals if visual.material is not None]
         every = (*model.robot.materials, *used)

@@ -79,8 +79,10 @@ class LaunchArgumentUndeclared(RobotRule):
             if is_elsewhere and are_found and not has_default and not file.imports_code:
                 yield from self._inherited(file, use, model)
             return
-        if near is not None and near not in used and _is_rarer(near, use.name, file):
-            place = file.declared[near].name
+        renamed = _unused(file, use.name, model) if near is None and file.is_ros1 else None
+        if renamed is not None or (near is not None and near not in used and _is_rarer(near, use.name, file)):
+            place = renamed or file.declared[near or ""].name
+            near = place.name
             message = f"launch argument `{near}` is declared but not used" + Suggestion(use.name, near)
         else:
             place = use

@@ -85,7 +85,7 @@ class SrdfGroupInconsistent(RobotRule):
                     message = f"group `{name}` of end effector `{effector.get('name')}` is its own parent group"
                     yield self.at(model, effector, message, attribute="parent_group", severity=severity)
                 is_own = parent in links
-                if is_own:
+                if is_own and name != effector.get("parent_group"):
                     message = f"parent link `{parent}` of end effector `{effector.get('name')}` is in group `{name}`"
                     help = "write the link of the arm that carries the group"
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)

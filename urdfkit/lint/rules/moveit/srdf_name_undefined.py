@@ -99,6 +99,7 @@ class SrdfNameUndefined(RobotRule):
             attribute=reference.attribute,
             link=name if kind == "link" else None,
             joint=name if kind == "joint" else None,
+            names=(name,) if kind == "group" else (),
             kind=kind,
             severity=severity_for(root, model, "warning" if tag.endswith("_collisions") else self.severity),
         )

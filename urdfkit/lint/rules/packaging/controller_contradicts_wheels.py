@@ -7,6 +7,7 @@ from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings
 from urdfkit.lint.facts.control.yaml_tree import Node, span_of
+from urdfkit.lint.facts.gazebo.drive_wheels import Wheel
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -108,11 +109,12 @@ class ControllerContradictsWheels(RobotRule):
             side, wrong, wheel, place = min(sides, key=lambda each: each[1].line if len(left) > 1 else 0)
             message = f"{side} wheel `{wrong.text}` of controller `{controller.name}` is on the {place} side"
             message += f", at y = {wheel.place[1]:g} m"
-            yield self._at(source, wrong, message, wrong.text, "swap the wheel names")
+            names = _links(first, other)
+            yield self._at(source, wrong, message, wrong.text, "swap the wheel names", names=names)
         if first.joint is not other.joint and first.place == other.place and first.place[1] != 0.0:
             position = f"{first.place[0]:g} {first.place[1]:g} {first.place[2]:g} m"
             message = f"wheels `{node.text}` and `{right[0][0].text}` are at the same place, {position}"
-            help, names = "check the signs of the joint origins", (right[0][0].text,)
+            help, names = "check the signs of the joint origins", (right[0][0].text, *_links(first, other))
             yield self._at(source, node, message, node.text, help, kind="place", names=names)
         separation_of_joints = abs(lateral)
         max_ratio = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
@@ -137,14 +139,22 @@ class ControllerContradictsWheels(RobotRule):
                 actual, subject = track(first, other, distances[: min(len(first.middles), len(other.middles))])
                 message = f"`wheel_separation` is {value:g} m, but {subject} are {actual:.6g} m apart"
                 written = property_of_length(model, actual)
-                yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}", other=written)
+                yield self._at(
+                    source,
+                    parameter,
+                    message,
+                    first.joint.name,
+                    f"write {actual:.6g}",
+                    other=written,
+                    names=_links(first, other),
+                )
         radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
         for parameter, value in _positive_number(controller.group, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
-                help, child = f"write {radii[0]:.6g}", str(first.joint.child)
+                help, names = f"write {radii[0]:.6g}", _links(first, other)
                 written = property_of_length(model, radii[0])
-                yield self._at(source, parameter, message, first.joint.name, help, names=(child,), other=written)
+                yield self._at(source, parameter, message, first.joint.name, help, names=names, other=written)
 
     def _at(
         self, source: Source, node: Node, message: str, joint: str, help: str, other: Span | None = None, **details: Any
@@ -153,6 +163,12 @@ class ControllerContradictsWheels(RobotRule):
         cause = f"{message} in {source.file}" if other is not None else ""
         details |= {"joint": joint, "help": help, "other": other, "cause": cause}
         return self.at_span(span_of(source, node), message, **details)
+
+
+def _links(*wheels: Wheel) -> tuple[str, ...]:
+    """Return the links that the joints of wheels connect."""
+    links = (link for wheel in wheels for link in (wheel.joint.parent, wheel.joint.child))
+    return tuple(dict.fromkeys(link for link in links if link is not None))
 
 
 def _positive_number(group: Node, name: str) -> Iterator[tuple[Node, float]]:

@@ -64,6 +64,8 @@ class ControllerInterfaceMissing(RobotRule):
         provided: dict[str, set[str]] = {}
         for transmission in model.robot.transmissions:
             for joint in transmission.joints:
+                if "$" in (joint.name or ""):
+                    return
                 names = (name.rpartition("/")[2] for name in joint.hardware_interfaces)
                 provided.setdefault(joint.name or "", set()).update(names)
         is_run = has_gazebo_ros_control(model.robot)

@@ -88,8 +88,22 @@ class YamlNotWellFormed(RobotRule):
                 missing = f"colon after `{word}`" if without_colon is not None else f"space after `{word}:`"
                 message = f"invalid YAML: missing {missing}"
                 break
+        if (indented := _indented_above(source, line)) is not None:
+            key, column = indented
+            line, message = line - 1, f"invalid YAML: `{key}` is indented more than the entries below it"
         start = source.offset(line, min(column, len(source.line(line)) + 1))
         return self.at_span(source.span(start, min(start + 1, len(source.text))), message)
+
+
+def _indented_above(source: Source, line: int) -> tuple[str, int] | None:
+    """Return key and column of the first entry of a mapping if it is indented more than the second one, at a line."""
+    if line < 3 or line > len(source.line_starts):
+        return None
+    owner, first, second = (re.match(r"( *)([\w/~-]+):(.*)", source.line(line - back)) for back in (2, 1, 0))
+    if owner is None or first is None or second is None or owner[3].strip():
+        return None
+    is_indented = len(owner[1]) < len(second[1]) < len(first[1])
+    return (first[2], len(first[1]) + 1) if is_indented else None
 
 
 def _unseparated_parameter(key: Node, value: Node) -> str | None:

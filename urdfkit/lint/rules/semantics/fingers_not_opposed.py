@@ -67,7 +67,9 @@ class FingersNotOpposed(RobotRule):
             if found is not None:
                 message, help = found
                 place = second.element.find("axis") or second.element
-                yield self.at(model, place, message, attribute="xyz", joint=second.name, help=help, names=(first.name,))
+                links = (each for each in (second.parent, first.child, second.child) if each is not None)
+                names = (first.name, *links)
+                yield self.at(model, place, message, attribute="xyz", joint=second.name, help=help, names=names)
 
 
 def _pairs(model: Model) -> Iterator[tuple[Joint, Joint]]:

@@ -36,7 +36,7 @@ class DuplicateLink(RobotRule):
         """Yield a finding for each link with the name of an earlier one; one for a macro call that repeats another."""
         calls: dict[Expansion, list[Link]] = {}
         earlier: dict[Expansion, Expansion] = {}
-        pairs = list(repeated(model.robot.links))
+        pairs = [(link, first) for link, first in repeated(model.robot.links) if "$" not in link.name]
         for link, first in pairs:
             here, there = link.element.origin, first.element.origin
             if here.position == there.position and here.expansions and here.expansions != there.expansions:

@@ -44,8 +44,9 @@ class NoRootOrCycle(RobotRule):
                 message = f"joint `{last.name}` connects link `{links[0]}` with itself"
             stem = re.sub(r"_?joint$", "", last.name)
             rootless = [link.name for link in robot.roots() if re.sub(r"_?link$", "", link.name) == stem != ""]
-            is_parent_wrong = len(loop) == 1 and len(robot.parents_of.get(links[0], ())) == 1
-            place = last.element.find("parent") if is_parent_wrong else None
+            is_parent_wrong = len(robot.parents_of.get(links[0], ())) == 1
+            end = "parent" if is_parent_wrong else "child"
+            place = last.element.find(end) if len(loop) == 1 else None
             attribute = "link" if place is not None else "name"
             names = tuple(rootless) if len(loop) == 1 else ()
             help = "remove one of the joints: each link has at most one parent" if len(loop) > 1 else None

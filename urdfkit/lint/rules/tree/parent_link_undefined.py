@@ -48,7 +48,7 @@ class ParentLinkUndefined(RobotRule):
                 f"undefined parent link `{name}` of joint `{joint.name}`" + hint,
                 attribute="link",
                 joint=joint.name,
-                names=(name,),
+                names=(name, suggestion) if suggestion in model.robot.root_by_name else (name,),
                 fix=new_value(model, element, "link", suggestion, "unsafe"),
                 help="a file that includes this one has to define it" if is_outside else None,
                 severity="note" if is_outside else None,

@@ -39,7 +39,7 @@ class RootLinkHasInertia(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for a root link with a mass."""
         roots = model.robot.roots()
-        if len(roots) == 1 and roots[0].inertial is not None and roots[0].inertial.mass:
+        if len(roots) == 1 and "$" not in roots[0].name and roots[0].inertial is not None and roots[0].inertial.mass:
             message = f"root link `{roots[0].name}` has an inertia, which KDL ignores"
             help = "add an empty root link, such as base_footprint, and connect it with a fixed joint"
             yield self.at(model, roots[0].element, message, attribute="name", link=roots[0].name, help=help)

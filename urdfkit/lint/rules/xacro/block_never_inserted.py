@@ -52,5 +52,24 @@ class BlockNeverInserted(SourceRule):
                 if block and block not in inserted and not any("$" in one for one in inserted):
                     message = f"macro `{name}` never inserts its block `{block}`"
                     help = f'add <xacro:insert_block name="{block}"/>'
-                    position = document.source.position(macro.start)
-                    yield self.at(model, position, message, attribute="params", help=help)
+                    position, names = document.source.position(macro.start), _defined_in_calls(name, model)
+                    kind = "calls" if any("$" in each for each in names) else ""
+                    yield self.at(
+                        model, position, message, attribute="params", help=help, kind=kind, names=tuple(sorted(names))
+                    )
+
+
+def _defined_in_calls(macro: str, model: Model) -> set[str]:
+    """Return the names of links and joints in the blocks of the calls of a macro; ``$`` for those of inner calls."""
+    blocks = [
+        tag
+        for file in model.expanded.sources
+        for call in model.document(file).walk()
+        if call.name == f"xacro:{macro}"
+        for child in call.children
+        for tag in child.walk()
+    ]
+    names = {
+        tag.attributes["name"].value for tag in blocks if tag.name in ("link", "joint") and "name" in tag.attributes
+    }
+    return names | {"$" for tag in blocks if tag.name.startswith("xacro:")}

@@ -2,6 +2,7 @@
 
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.facts.root_cause import cause_in_text, is_no_number
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
@@ -36,7 +37,9 @@ class ExpressionError(FaultRule):
         text = f"${{{fault.expression}}}"
         cause = cause_in_text(model, text, fault.expansions, is_no_number) if fault.expression else None
         if cause is None:
-            yield from super().check(fault, model)
+            kind = "load_yaml" if "load_yaml" in (fault.expression or "") else ""
+            for finding in super().check(fault, model):
+                yield Finding(**{**finding.__dict__, "kind": kind})
         else:
             tag = model.tag(cause[0])
             value = tag.attributes[cause[1]].value if tag is not None else ""

@@ -48,8 +48,8 @@ class MacroArgsMismatch(FaultRule):
         if fault.attribute in suggestions and suggestions[fault.attribute] is not None:
             suggestion = suggestions[fault.attribute]
             message = f"unknown parameter `{fault.attribute}` of macro `{fault.name}`, which requires `{suggestion}`"
-            help = f"rename the attribute to `{suggestion}`"
-            yield self.at(model, fault, message, attribute=fault.attribute, help=help, names=(fault.attribute,))
+            help, words = f"rename the attribute to `{suggestion}`", (fault.attribute, fault.name or "")
+            yield self.at(model, fault, message, attribute=fault.attribute, help=help, names=words)
         elif fault.attribute is not None:
             yield from super().check(fault, model)
         elif unmatched := [name for name in missing if name not in suggestions.values()]:

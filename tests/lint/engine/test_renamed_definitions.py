@@ -1,0 +1,64 @@
+"""Names that differ between a definition and its uses: one finding, at the side whose name no other place has."""
+
+import pytest
+
+from urdfkit.lint import lint
+
+ROBOT = """<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="wheel_radius" value="0.1"/>
+  <xacro:macro name="tyre" params="name side">
+    <link name="${name}_wheel">
+      <inertial><mass value="1"/><inertia ixx="1e-2" iyy="1e-2" izz="1e-2" ixy="0" ixz="0" iyz="0"/></inertial>
+      <collision><geometry><sphere radius="${wheel_radius}"/></geometry></collision>
+    </link>
+    <joint name="${name}_wheel_joint" type="continuous">
+      <parent link="base"/><child link="${name}_wheel"/><origin xyz="0 ${side * 0.2} 0"/><axis xyz="0 1 0"/>
+    </joint>
+  </xacro:macro>
+  <link name="base">
+    <inertial><mass value="1"/><inertia ixx="1e-2" iyy="1e-2" izz="1e-2" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision>
+  </link>
+  <xacro:tyre name="left" side="1"/>
+  <xacro:tyre name="right" side="-1"/>
+  <link name="mast"/>
+  <joint name="mast_joint" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0 0 0.3"/></joint>
+  <link name="camera"/>
+  <joint name="camera_joint" type="fixed">
+    <parent link="mast"/>
+    <child link="camera"/><origin xyz="${wheel_radius} 0 0.1"/></joint>
+  <ros2_control name="cart" type="system">
+    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    <joint name="left_wheel_joint"><command_interface name="velocity"/></joint>
+    <joint name="right_wheel_joint"><command_interface name="velocity"/></joint>
+  </ros2_control>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line"),
+    [
+        ('<link name="mast"', '<link name="mats"', 18),
+        ('child link="mast"', 'child link="mats"', 19),
+        ('parent link="mast"', 'parent link="mats"', 22),
+        ('<link name="camera"', '<link name="camrea"', 20),
+        ('child link="camera"', 'child link="camrea"', 23),
+        ('<joint name="${name}_wheel_joint"', '<joint name="${name}_wheel_jiont"', 8),
+        ('<joint name="right_wheel_joint"', '<joint name="right_wheel_jiont"', 27),
+        ('property name="wheel_radius"', 'property name="weel_radius"', 2),
+        ("${wheel_radius} 0 0.1", "${weel_radius} 0 0.1", 23),
+        ('macro name="tyre"', 'macro name="tire"', 3),
+        ('<xacro:tyre name="right"', '<xacro:tire name="right"', 17),
+        ('params="name side"', 'params="name sied"', 3),
+        ('side="-1"', 'sied="-1"', 17),
+        ("${side * 0.2}", "${sied * 0.2}", 9),
+    ],
+)
+def test_a_renamed_definition_is_one_finding_there_and_a_misspelt_use_at_the_use(old, new, line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert ROBOT.count(old) == 1
+    (tmp_path / "cart.urdf.xacro").write_text(ROBOT)
+    assert lint("cart.urdf.xacro", ignore=("G", "I510")) == []
+    (tmp_path / "cart.urdf.xacro").write_text(ROBOT.replace(old, new))
+    assert [each.line for each in lint("cart.urdf.xacro", ignore=("G", "I510"))] == [line]
