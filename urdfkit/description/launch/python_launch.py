@@ -58,7 +58,7 @@ class _PythonLaunch:
         outer = self._scope.namespace, self._scope.is_skipped, self._scope.spaced_at
         if isinstance(node, ast.Call):
             keywords = _keywords(node)
-            self._scope.is_skipped |= self._is_off(keywords.get("condition"))
+            self._scope.is_skipped |= self._holds(keywords.get("condition")) is False
             name = name_of(node.func)
             if name in _NODES or name == "IncludeLaunchDescription":
                 self._enter(node)
@@ -112,11 +112,11 @@ class _PythonLaunch:
             self._scope.namespace = UNKNOWN
         for push in self._groups.get(id(action), ()):
             keywords = _keywords(push, "namespace")
-            condition = keywords.get("condition")
-            if condition is None or self._is_on(condition):
+            holds = self._holds(keywords["condition"]) if "condition" in keywords else True
+            if holds:
                 self._scope.namespace = self._scope.below(self._text(keywords.get("namespace")))
                 self._scope.spaced_at = (self._scope.path, *_start(keywords.get("namespace"), push))
-            elif not self._is_off(condition):
+            elif holds is None:
                 self._scope.namespace = UNKNOWN
 
     def _node(self, call: ast.Call, keywords: dict[str, ast.expr]) -> LaunchNode:
@@ -153,19 +153,13 @@ class _PythonLaunch:
         file = self._scope.file(self._text(node))
         return (file, namespace.strip("/")) if file is not None else None
 
-    def _is_on(self, condition: ast.expr) -> bool:
-        if not isinstance(condition, ast.Call):
-            return False
-        text = self._text(_first(condition))
-        kind = name_of(condition.func)
-        return (kind == "IfCondition" and is_true(text)) or (kind == "UnlessCondition" and is_false(text))
-
-    def _is_off(self, condition: ast.expr | None) -> bool:
-        if not isinstance(condition, ast.Call):
-            return False
-        text = self._text(_first(condition))
-        kind = name_of(condition.func)
-        return (kind == "IfCondition" and is_false(text)) or (kind == "UnlessCondition" and is_true(text))
+    def _holds(self, condition: ast.expr | None) -> bool | None:
+        """Return whether a condition of an action holds; None if it is computed."""
+        kind = name_of(condition.func) if isinstance(condition, ast.Call) else ""
+        text = self._text(_first(condition)) if isinstance(condition, ast.Call) else UNKNOWN
+        if kind not in ("IfCondition", "UnlessCondition") or not (is_true(text) or is_false(text)):
+            return None
+        return is_true(text) == (kind == "IfCondition")
 
     def _text(self, node: ast.expr | None, default: str = UNKNOWN, separator: str = "") -> str:
         """Return the text of an expression, with `UNKNOWN` for each computed part."""

@@ -2,7 +2,8 @@
 /* global MeshCat */
 
 import { check, h, short } from "../page/dom.js";
-import { Gizmo, gizmoKeys, nearest } from "../handles/gizmo.js";
+import { Gizmo, gizmoKeys } from "../handles/gizmo.js";
+import { HandleDrag, screen } from "../handles/handle_drag.js";
 import { LinkSolver } from "./link_solver.js";
 import { LostMotions } from "./lost_motions.js";
 import { SolutionChoice } from "./solution_choice.js";
@@ -112,38 +113,24 @@ export class Dragging {
     this.page.labels.tip(null);
     this.choice.clear();
     const { link, page } = this;
-    const at = page.labels.at(link);
-    const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
-    const normal = handle.kind === "about" ? axis : this.viewer.camera.getWorldDirection(new THREE.Vector3());
-    this.drag = { pointer: event.pointerId, kind: handle.kind, link, at, axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at), values: { ...page.values }, goal: null, tried: 0 };
-    this.drag.pose = page.robot.kinematics.forward(page.values).get(link);
-    this.drag.from = this.#grip(event);
-    this.drag.start = at.clone();
-    page.viewport.pane.setPointerCapture(event.pointerId);
-    this.viewer.controls.enabled = false;
-  }
-
-  // The point under the pointer, on the plane or axis of the handle, in the world.
-  #grip(event) {
-    const ray = this.page.pick.aim(event);
-    const { kind, axis, plane, at } = this.drag;
-    return kind === "along" ? nearest(ray, at, axis) : ray.intersectPlane(plane, new THREE.Vector3());
+    const position = this.viewer.scene.worldToLocal(page.labels.at(link).clone());
+    const [kind, axis] = handle.kind === "free" ? ["plane", screen(this.viewer)[2]] : [handle.kind, handle.axis];
+    const motion = new HandleDrag(page, event, { kind, axis, position, turn: new THREE.Quaternion() });
+    const pose = page.robot.kinematics.forward(page.values).get(link);
+    this.drag = { motion, link, pose, at: motion.at, values: { ...page.values }, goal: null, tried: 0 };
   }
 
   #move(event) {
-    if (!this.drag || event.pointerId !== this.drag.pointer) return;
+    if (!this.drag || event.pointerId !== this.drag.motion.pointer) return;
     event.stopImmediatePropagation();
-    const grip = this.#grip(event);
-    if (!grip || !this.drag.from) return;
-    const { kind, pose, start } = this.drag;
-    let goal = pose;
-    if (kind === "about") goal = this.#turned(grip);
+    const { motion, pose } = this.drag;
+    const moved = motion.pose(event);
+    if (!moved) return;
+    if (motion.kind === "about") this.drag.goal = [...pose.slice(0, 3), ...this.#turned(pose, motion.world, moved.angle)];
     else {
-      this.drag.at = start.clone().add(grip.sub(this.drag.from));
-      const [x, y, z] = this.#inRoot(this.drag.at);
-      goal = [x, y, z, ...pose.slice(3)];
+      this.drag.at = this.viewer.scene.localToWorld(moved.position);
+      this.drag.goal = [...this.#inRoot(this.drag.at), ...pose.slice(3)];
     }
-    this.drag.goal = goal;
     this.#reach(this.drag, RESTARTS);
   }
 
@@ -154,9 +141,8 @@ export class Dragging {
     this.choice.clear();
     const pose = page.robot.kinematics.forward(page.values).get(link);
     const at = scene.localToWorld(scene.worldToLocal(page.labels.at(link)).add(new THREE.Vector3(...by)));
-    const up = this.#directionInRoot(new THREE.Vector3(0, 0, 1).transformDirection(scene.matrixWorld));
-    const turn = new THREE.Quaternion().setFromAxisAngle(up, angle).toArray();
-    const goal = [...this.#inRoot(at), ...compose([0, 0, 0, ...turn], [0, 0, 0, ...pose.slice(3)]).slice(3)];
+    const up = new THREE.Vector3(0, 0, 1).transformDirection(scene.matrixWorld);
+    const goal = [...this.#inRoot(at), ...this.#turned(pose, up, angle)];
     this.#reach({ link, values: { ...page.values }, goal, tried: 0, keyed: true }, ALL);
   }
 
@@ -189,14 +175,11 @@ export class Dragging {
     page.viewport.dirty();
   }
 
-  #turned(grip) {
-    const { start, from, axis, pose } = this.drag;
-    const [a, b] = [from.clone().sub(start), grip.clone().sub(start)];
-    const angle = Math.atan2(axis.dot(a.clone().cross(b)), a.dot(b));
-    const local = this.#directionInRoot(axis);
+  // The orientation of a pose in the root link, turned about an axis of the world.
+  #turned(pose, axis, angle) {
+    const local = axis.clone().transformDirection(this.#root.matrixWorld.clone().invert());
     const turn = new THREE.Quaternion().setFromAxisAngle(local, angle).toArray();
-    const [x, y, z] = pose;
-    return [x, y, z, ...compose([0, 0, 0, ...turn], [0, 0, 0, ...pose.slice(3)]).slice(3)];
+    return compose([0, 0, 0, ...turn], [0, 0, 0, ...pose.slice(3)]).slice(3);
   }
 
   get #root() {
@@ -205,10 +188,6 @@ export class Dragging {
 
   #inRoot(world) {
     return this.#root.worldToLocal(world.clone()).toArray();
-  }
-
-  #directionInRoot(axis) {
-    return axis.clone().transformDirection(this.#root.matrixWorld.clone().invert());
   }
 
   #report(drag, { error, turned, reason }, collisions = []) {
@@ -228,15 +207,15 @@ export class Dragging {
   }
 
   #up(event) {
-    if (!this.drag || event.pointerId !== this.drag.pointer) return;
+    if (!this.drag || event.pointerId !== this.drag.motion.pointer) return;
     event.stopImmediatePropagation();
+    this.drag.motion.end();
     if (this.drag.goal && !this.drag.reached) {
       this.drag.tried = 0;
       this.#reach(this.drag, ALL);
     }
     this.drag = null;
     this.#quiet();
-    this.viewer.controls.enabled = this.page.cameras.way !== "first";
     this.page.viewport.dirty();
   }
 }
