@@ -73,12 +73,20 @@ def separated_nodes(model: Model) -> Iterator[tuple[Span, str, str]]:
                 is_own = reader.is_renamed and reader.topic in every
                 if not is_constant(reader.topic) or not reader.topic.endswith(base) or is_own:
                     continue
-                if all(end.topic != reader.topic for end in publishers):
-                    wrong, message = _message(tree, publishers, reader)
+                others = [end for end in publishers if not _is_alternative(end, reader, readers)]
+                if others and all(end.topic != reader.topic for end in publishers):
+                    wrong, message = _message(tree, others, reader)
                     span = place_of(wrong.node, model)
                     if span is not None and (span.file, span.line) not in seen:
                         seen.add((span.file, span.line))
                         yield span, message, reader.topic.strip("/")
+
+
+def _is_alternative(end: _Connection, reader: _Connection, readers: list[_Connection]) -> bool:
+    """Return whether a publisher starts under another condition than a reader, together with a reader of its own."""
+    pairs = (other for other in readers if other.topic == end.topic)
+    is_same = end.node.is_skipped is reader.node.is_skipped
+    return not is_same and any(other.node.is_skipped is end.node.is_skipped for other in pairs)
 
 
 def _message(tree: LaunchContents, publishers: list[_Connection], reader: _Connection) -> tuple[_Connection, str]:

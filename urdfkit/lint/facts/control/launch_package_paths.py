@@ -9,7 +9,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.record import record
 
 _FIND = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
-_LET = r"<let\s+name=[\"']([\w.-]+)[\"']\s+value=[\"']\$\(find-pkg-share\s+([\w-]+)\)/?[\"']"
+_LET = r"<let\s+name=[\"']([\w.-]+)[\"']\s+value=[\"']\$\(find-pkg-share\s+([\w-]+)\)(/[\w./-]*)?[\"']"
 _LET_USE = r"\$\(var\s+([\w.-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
 """Matches a folder of a package in a ``<let>``, and a path in such a folder."""
 
@@ -65,10 +65,11 @@ def package_paths(source: Source) -> Iterator[PackagePath]:
     text = uncommented(source)
     for at in re.finditer(_FIND, text):
         yield PackagePath(at[1], at[2], at.start(), at.end())
-    values = dict(re.findall(_LET, text))
+    values = {name: (package, path.strip("/")) for name, package, path in re.findall(_LET, text)}
     for at in re.finditer(_LET_USE, text) if values else ():
         if at[1] in values:
-            yield PackagePath(values[at[1]], at[2], at.start(), at.end())
+            package, folder = values[at[1]]
+            yield PackagePath(package, f"{folder}/{at[2]}".lstrip("/"), at.start(), at.end())
 
 
 def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:

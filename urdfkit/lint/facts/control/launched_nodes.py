@@ -1,5 +1,9 @@
-"""Nodes that launch files start, with their constant arguments; launch files are not executed."""
+"""Nodes that launch files start, with their constant arguments; launch files are not executed.
 
+``ros2 control load_controller`` counts as a spawner.
+"""
+
+import ast
 import re
 from collections.abc import Iterator
 from functools import lru_cache
@@ -9,6 +13,8 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
+
+Binding = dict[str, ast.expr]
 
 _NODE = r"<node\b[^<>]*>"
 _CONDITION = r"\s(?:if|unless)\s*="
@@ -25,12 +31,14 @@ class Started:
         program: name of the executable; empty if it is computed.
         arguments: command line arguments in order, with their offsets; None for each computed argument.
         is_conditional: whether it starts under a condition only, or may do so.
+        computed: arguments that a loop over constants composes, and the offset of each of their characters.
     """
 
     package: str
     program: str
     arguments: tuple[Named | None, ...]
     is_conditional: bool = False
+    computed: tuple[tuple[str, tuple[int, ...]], ...] = ()
 
 
 def launches(model: Model) -> Iterator[Source]:
@@ -93,13 +101,11 @@ def _in_yaml(source: Source) -> Iterator[Started]:
 
 
 def _in_python(source: Source) -> Iterator[Started]:
-    import ast
-
     from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
     from urdfkit.lint.facts.control.launch_package_paths import place
     from urdfkit.lint.facts.nodes.python_bindings import bindings, resolved
 
-    tree = parsed(source) if "Node" in source.text else None
+    tree = parsed(source) if re.search(r"Node|load_controller", source.text) else None
     if tree is None:
         return
     reader = launch_reader(tree)
@@ -110,15 +116,58 @@ def _in_python(source: Source) -> Iterator[Started]:
             and (name_of(node.func) == "GroupAction" or any(word.arg == "condition" for word in node.keywords))
         )
         conditional.update(ast.walk(node) if is_conditional else ())
-        if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode"):
+        if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode", "ExecuteProcess"):
             continue
         keywords = {word.arg: word.value for word in node.keywords}
+        if name_of(node.func) == "ExecuteProcess":
+            last = next(iter(reader.items(keywords.get("cmd"))[-1:]), None)
+            texts = [reader.text(each) for each in reader.items(keywords.get("cmd"))]
+            if "load_controller" in texts[:-1] and isinstance(last, ast.Constant) and texts[-1]:
+                word = Named(texts[-1], place(source, last)[0] + 1)
+                yield Started("controller_manager", "spawner", (word,), node in conditional)
+            continue
         names = [reader.text(keywords[key]) if key in keywords else None for key in ("package", "executable")]
         written = keywords.get("arguments")
         for binding in bindings(tree, node):
             arguments: list[Named | None] = []
-            for part in written.elts if isinstance(written, (ast.List, ast.Tuple)) else ():
-                word = resolved(part, binding) or part
-                text = word.value if isinstance(word, ast.Constant) else None
-                arguments.append(Named(text, place(source, word)[0] + 1) if isinstance(text, str) else None)
-            yield Started(names[0] or "", names[1] or "", tuple(arguments), node in conditional)
+            computed: list[tuple[str, tuple[int, ...]]] = []
+            for part, inner in _items(tree, written):
+                value = resolved(part, inner | binding) or part
+                text = value.value if isinstance(value, ast.Constant) else None
+                arguments.append(Named(text, place(source, value)[0] + 1) if isinstance(text, str) else None)
+                computed += _composed(source, value, inner | binding) if isinstance(value, ast.JoinedStr) else ()
+            yield Started(names[0] or "", names[1] or "", tuple(arguments), node in conditional, tuple(computed))
+
+
+def _items(tree: ast.Module, node: ast.expr | None) -> Iterator[tuple[ast.expr, Binding]]:
+    """Yield the items of a list, also of later calls of `append` and `extend`, with the values of their names."""
+    from urdfkit.description.launch.python_constants import launch_reader
+    from urdfkit.lint.facts.nodes.python_bindings import bindings
+
+    reader = launch_reader(tree)
+    if isinstance(node, ast.ListComp):
+        yield from ((node.elt, binding) for binding in bindings(tree, node.elt))
+    yield from ((item, {}) for item in reader.items(node))
+    name = node.id if isinstance(node, ast.Name) and node.id in reader.assigned else ""
+    for call in ast.walk(tree) if name else ():
+        target = call.func if isinstance(call, ast.Call) and len(call.args) == 1 else None
+        is_own = isinstance(target, ast.Attribute) and isinstance(target.value, ast.Name) and target.value.id == name
+        if isinstance(call, ast.Call) and isinstance(target, ast.Attribute) and is_own:
+            added = {"append": call.args, "extend": reader.items(call.args[0])}.get(target.attr, [])
+            yield from ((item, binding) for binding in bindings(tree, call) for item in added)
+
+
+def _composed(source: Source, node: ast.JoinedStr, binding: Binding) -> Iterator[tuple[str, tuple[int, ...]]]:
+    """Yield the text of an f-string whose parts are constants, and the offset of each character."""
+    from urdfkit.lint.facts.control.launch_package_paths import place
+    from urdfkit.lint.facts.nodes.python_bindings import resolved
+
+    text, offsets = "", list[int]()
+    for part in node.values:
+        value = resolved(part.value, binding) if isinstance(part, ast.FormattedValue) else part
+        if not isinstance(value, ast.Constant) or not isinstance(value.value, str):
+            return
+        text += value.value
+        start = place(source, value if value is not part else node)[0] + 1
+        offsets += range(start, start + len(value.value)) if value is not part else [start] * len(value.value)
+    yield text, tuple(offsets)

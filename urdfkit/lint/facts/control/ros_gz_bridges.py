@@ -1,7 +1,7 @@
 """ros_gz_bridge: message type pairs, and the bridges configured in launch files and YAML."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
@@ -52,6 +52,9 @@ REQUIRED = {
 
 _OF_IMAGES = ("sensor_msgs/msg/Image", "gz.msgs.Image", "GZ_TO_ROS")
 """Types and direction of the topics of image_bridge (ros_gz_image, README)."""
+
+_ARGUMENT = r"([^@\s]+)@([\w/.]+)([@\[\]])([\w.:/]+)"
+"""Matches an argument of parameter_bridge: topic, ROS type, direction and Gazebo type."""
 
 DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ", "IGN_TO_ROS", "ROS_TO_IGN")
 """Directions in the YAML files of ros_gz_bridge (Humble to Rolling)."""
@@ -140,9 +143,19 @@ def in_launch(source: Source) -> Iterator[Bridged]:
                 if word is not None and re.fullmatch(r"/?[\w/]+", word.name):
                     yield Bridged(word, *(Named(name, word.start) for name in _OF_IMAGES))
                 continue
-            at = re.fullmatch(r"([^@\s]+)@([\w/.]+)([@\[\]])([\w.:/]+)", word.name) if word is not None else None
+            at = re.fullmatch(_ARGUMENT, word.name) if word is not None else None
             if word is None or at is None:
                 continue
-            parts = [Named(at[group], word.start + at.start(group)) for group in (1, 2, 3, 4)]
-            way = {"[": "GZ_TO_ROS", "]": "ROS_TO_GZ"}.get(at[3], "BIDIRECTIONAL")
-            yield Bridged(parts[0], parts[1], parts[3], Named(way, parts[2].start))
+            yield _bridged(at, [word.start + index for index in range(len(word.name) + 1)])
+        for text, offsets in node.computed:
+            if (at := re.fullmatch(_ARGUMENT, text)) is not None:
+                yield _bridged(at, offsets)
+
+
+def _bridged(at: re.Match[str], offsets: Sequence[int]) -> Bridged:
+    # A topic such as `/{name}` begins before the constant that names it.
+    topic, ros, way, gazebo = (
+        Named(at[group], offsets[at.end(group) - 1] + 1 - len(at[group])) for group in (1, 2, 3, 4)
+    )
+    direction = {"[": "GZ_TO_ROS", "]": "ROS_TO_GZ"}.get(way.name, "BIDIRECTIONAL")
+    return Bridged(topic, ros, gazebo, Named(direction, way.start))

@@ -40,7 +40,7 @@ def _spawners(model: Model, without: tuple[str, ...]) -> Iterator[tuple[Source, 
     """Yield each launch file and the controllers that it always spawns, by spawners without some options."""
     for source in launches(model):
         names: list[Named] = []
-        for node in started(source) if "spawner" in source.text else ():
+        for node in started(source) if re.search("spawner|load_controller", source.text) else ():
             options = {word.name for word in node.arguments if word is not None}
             if node.program in SPAWNERS and _is_literal(node) and options.isdisjoint(without):
                 names += spawned(node)

@@ -46,6 +46,8 @@ map_saver crop_map;
 octomap_server: octomap_color_server_node octomap_server_node color_octomap_server_node octomap_saver_node
 octomap_saver octomap_server_static octomap_server_static_node octomap_server_multilayer octomap_server_multilayer_node
 tracking_octomap_server_node octomap_tracking_server_node octomap_eraser_cli.py;
+rclcpp_components: component_container component_container_mt component_container_isolated
+component_container_event; nodelet: nodelet list_nodelets declared_nodelets;
 amcl: amcl; move_base: move_base; gmapping: slam_gmapping;
 hector_mapping: hector_mapping;
 topic_tools: relay mux throttle drop transform relay_field switch_mux mux_add mux_delete mux_list mux_select demux
@@ -88,11 +90,12 @@ _ONLY_IN = {
     1: """controller_manager: controller_manager controller_group; xacro:
     xacro.py; gazebo_ros: gazebo spawn_model debug perf gdbrun urdf2gazebo libcommon.sh; teleop_twist_keyboard:
     teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node; imu_filter_madgwick:
-    imu_filter_node""",
+    imu_filter_node; usb_cam: usb_cam_node; rplidar_ros: rplidarNode rplidarNodeClient""",
     2: """controller_manager: ros2_control_node hardware_spawner spawner.py unspawner.py hardware_spawner.py;
     gazebo_ros: spawn_entity.py; robot_localization: ekf_node ukf_node
     robot_localization_listener_node; teleop_twist_keyboard: teleop_twist_keyboard;
-    imu_filter_madgwick: imu_filter_madgwick_node""",
+    imu_filter_madgwick: imu_filter_madgwick_node; usb_cam: usb_cam_node_exe; rplidar_ros: rplidar_node
+    rplidar_composition""",
 }
 """Version of ROS → executables that no release of the other version has."""
 
@@ -155,6 +158,14 @@ def released() -> Mapping[str, Executables]:
     """Return package → the executables of common released packages; others may exist in other releases."""
     table = _names(_RELEASED).items()
     return {name: Executables(tuple(names), frozenset(), name in _COMPLETE) for name, names in table}
+
+
+@cache
+def package_of(program: str, other: str) -> str | None:
+    """Return the released package, of the family of another one, that has an executable; None if several have it."""
+    found = [name for name, executables in released().items() if program in executables.names]
+    family = [name for name in found if name.partition("_")[0] == other.partition("_")[0]]
+    return (family or found)[0] if len(family or found) == 1 else None
 
 
 def replacement_of(package: str, texts: Iterable[str]) -> str | None:

@@ -38,6 +38,29 @@ def never_run(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int
             yield place(source, target), program
 
 
+def never_started(tree: ast.Module) -> Iterator[tuple[ast.expr, str, str]]:
+    """Yield the target of the first event handler of a circle, with its name and that of the action that starts it.
+
+    The actions of a circle are started by its handlers only.
+    """
+    starts: list[tuple[ast.Name, list[ast.Name]]] = []
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        words = {word.arg: word.value for word in call.keywords}
+        actions, target = words.get("on_exit") or words.get("on_start"), words.get("target_action")
+        if name_of(call.func) in ("OnProcessExit", "OnProcessStart") and isinstance(target, ast.Name) and actions:
+            starts.append((target, [each for each in ast.walk(actions) if isinstance(each, ast.Name)]))
+    inner = {each for target, names in starts for each in (target, *names)}
+    loaded = (node for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load))
+    begun = {node.id for node in loaded if node not in inner}
+    for _ in starts:
+        begun |= {each.id for target, names in starts if target.id in begun for each in names}
+    for target, _ in starts:
+        before = next((other for other, names in starts if target.id in [each.id for each in names]), None)
+        if target.id not in begun and before is not None and before is not target:
+            yield target, target.id, before.id
+            return
+
+
 def _value(node: ast.expr, reader: LaunchReader) -> ast.expr:
     return (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
 

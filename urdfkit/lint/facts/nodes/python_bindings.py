@@ -6,7 +6,7 @@ Functions that consist of assignments and a ``return`` are written out in the tr
 import ast
 from functools import lru_cache
 
-from urdfkit.description.launch.python_constants import launch_reader
+from urdfkit.description.launch.python_constants import assignments, launch_reader
 
 Binding = dict[str, ast.expr]
 """Name of a parameter or loop variable → the expression that it stands for."""
@@ -18,27 +18,27 @@ _MAX_BINDINGS = 100
 
 @lru_cache(maxsize=200)
 def _scopes(tree: ast.Module) -> tuple[dict[ast.AST, tuple[ast.AST, ...]], dict[str, list[ast.Call]]]:
-    """Return the functions and loops around each call, and the calls of each name."""
+    """Return the functions and loops around each call and f-string, and the calls of each name."""
     around: dict[ast.AST, tuple[ast.AST, ...]] = {}
     calls: dict[str, list[ast.Call]] = {}
     waiting: list[tuple[ast.AST, tuple[ast.AST, ...]]] = [(tree, ())]
     while waiting:
         node, scopes = waiting.pop()
-        if isinstance(node, ast.Call):
+        if isinstance(node, (ast.Call, ast.JoinedStr)):
             around[node] = scopes
-            if isinstance(node.func, ast.Name):
-                calls.setdefault(node.func.id, []).append(node)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            calls.setdefault(node.func.id, []).append(node)
         inner = (*scopes, node) if isinstance(node, (*_LOOPS, ast.FunctionDef)) and len(scopes) < 8 else scopes
         waiting += [(child, inner) for child in ast.iter_child_nodes(node)]
     return around, calls
 
 
-def bindings(tree: ast.Module, call: ast.Call) -> list[Binding]:
+def bindings(tree: ast.Module, call: ast.expr) -> list[Binding]:
     """Return the expressions that the names in a call stand for, one binding for each run of the call.
 
     Args:
         tree: syntax tree of the launch file.
-        call: a call in it.
+        call: a call or an f-string in it.
 
     Returns:
         One binding, which may be empty, if no function with constant arguments and no loop over a literal list is
@@ -133,8 +133,6 @@ def _of_loop(loop: ast.AST, tree: ast.Module) -> list[Binding]:
         items = values.elts if isinstance(values, (ast.List, ast.Tuple)) else []
     if isinstance(target, ast.Name):
         return [{target.id: item} for item in items]
-    if not isinstance(target, ast.Tuple) or not all(isinstance(each, ast.Name) for each in target.elts):
-        return []
-    names = [each.id for each in target.elts if isinstance(each, ast.Name)]
-    rows = [item.elts for item in items if isinstance(item, (ast.Tuple, ast.List))]
-    return [dict(zip(names, row, strict=True)) for row in rows if len(row) == len(names)]
+    names = [each.id for each in ast.walk(target) if isinstance(each, ast.Name)]
+    found = [{name.id: value for name, value in assignments(target, item)} for item in items]
+    return [each for each in found if len(each) == len(names)]

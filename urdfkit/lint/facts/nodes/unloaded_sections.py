@@ -89,7 +89,10 @@ def maps_without_file(model: Model) -> Defects:
         if (node.package, node.program) != ("nav2_map_server", "map_server") or node.inline is None or not node.files:
             continue
         values = [group.find("yaml_filename") for _, group in groups_of(node, files)]
-        is_set = "yaml_filename" in node.inline or any(value is not None and value.text for value in values)
+        is_rewritten = "param_rewrites" in node.source.text and "yaml_filename" in node.source.text
+        is_set = (
+            is_rewritten or "yaml_filename" in node.inline or any(value is not None and value.text for value in values)
+        )
         is_read = all(file in files for file in node.files) and values
         if node.place is not None and is_read and not is_set:
             yield node.source, node.place, "`map_server` needs the parameter `yaml_filename`"

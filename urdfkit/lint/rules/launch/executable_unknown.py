@@ -5,6 +5,7 @@ from urdfkit.lint.facts.launch.executables import (
     Executables,
     executables_of,
     is_of_other_release,
+    package_of,
     released,
     replacement_of,
     wrong_components,
@@ -56,6 +57,7 @@ class ExecutableUnknown(RobotRule):
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.lint.facts.launch.actions import launch_files
         from urdfkit.lint.facts.launch.ros_version import reads_version
+        from urdfkit.lint.facts.nodes.nodelets import wrong_nodelets
         from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest
 
@@ -66,6 +68,8 @@ class ExecutableUnknown(RobotRule):
         by_package: dict[str, Executables | None] = {**released()}
         for package in near:
             by_package.pop(package, None)
+        for source, word, message in wrong_nodelets(model):
+            yield self.at_span(source.span(word.start, word.end), message, severity="warning")
         for file in launch_files(model):
             version = reads_version(file.source)
             for plugin, message in wrong_components(file.source) if version == 2 else ():
@@ -100,6 +104,12 @@ class ExecutableUnknown(RobotRule):
                     meant = nearest(program, names, cutoff=0.6 if program in others else 0.7)
                     meant = names[0] if meant is None and found.is_complete and len(names) == 1 else meant
                     meant = f"{program}_node" if f"{program}_node" in names else meant
+                owner = package_of(program, package) if meant is None and package not in near else None
+                if owner is not None and owner not in (package, *near):
+                    span = file.source.span(node.package.start, node.package.start + len(package))
+                    message = f"package `{package}` has no executable `{program}`" + Suggestion(owner, package)
+                    yield self.at_span(span, message, names=(program,))
+                    continue
                 if meant is None and not found.is_complete and program not in others:
                     continue
                 release = f" in {_RELEASES[version]}" if program in others else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -40,10 +41,13 @@ class ExitHandlerNeverRuns(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each handler that waits for a node without an end."""
         from urdfkit.lint.facts.launch.python_names import python_files
-        from urdfkit.lint.facts.nodes.exit_handlers import never_run
+        from urdfkit.lint.facts.nodes.exit_handlers import never_run, never_started
 
         for source, tree in python_files(model):
-            for place, program in never_run(source, tree) if "OnProcessExit" in source.text else ():
+            for target, name, before in never_started(tree) if "OnProcess" in source.text else ():
+                message = f"`{name}` starts after `{before}`, which waits for `{name}`: neither of them starts"
+                yield self.at_span(source.span(*place(source, target)), message)
+            for at, program in never_run(source, tree) if "OnProcessExit" in source.text else ():
                 message = f"`{program}` runs until the launch ends, so `on_exit` starts nothing"
                 help = "name the process that exits before the nodes start, or use OnProcessStart"
-                yield self.at_span(source.span(*place), message, help=help)
+                yield self.at_span(source.span(*at), message, help=help)

@@ -73,7 +73,7 @@ class LaunchArgumentUndeclared(RobotRule):
             receiver(call, model) is not None or (call.package, call.path.rpartition("/")[2]) in OUTSIDE
             for call in file.includes
         )
-        is_certain = are_found and not has_default and not is_elsewhere and bool(file.declared)
+        is_certain = are_found and not has_default and not is_elsewhere
         is_certain &= not file.imports_code
         if near is None and not file.is_ros1 and not is_certain:
             if is_elsewhere and are_found and not has_default and not file.imports_code:
@@ -89,7 +89,7 @@ class LaunchArgumentUndeclared(RobotRule):
             hint = Suggestion(near, use.name)
             message = f"launch argument `{use.name}` is not declared" + hint
         span = file.source.span(place.start, place.end)
-        severity = "warning" if has_default else self.severity
+        severity = "warning" if has_default or not file.declared else self.severity
         yield self.at_span(span, message, severity=severity)
 
     def _inherited(self, file: LaunchActions, use: Named, model: Model) -> Findings:
@@ -97,6 +97,10 @@ class LaunchArgumentUndeclared(RobotRule):
         from urdfkit.lint.facts.launch.receivers import included_files
 
         included = [each for each in included_files(file, model) if each is not None]
+        passing = {
+            call.path.rpartition("/")[2] for call in file.includes for word in call.passed if word.name == use.name
+        }
+        included = [each for each in included if each.source.file.rpartition("/")[2] not in passing]  # evaluated before
         if any(each.is_computed or use.name in {*each.declared, *each.assigned} for each in included):
             return
         span = file.source.span(use.start, use.end)

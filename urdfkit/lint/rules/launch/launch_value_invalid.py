@@ -202,6 +202,9 @@ def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterat
 def _parameter(
     attributes: dict[str, Attribute], model: Model, defaults: dict[str, str]
 ) -> Iterator[tuple[Attribute, str]]:
+    value, kind = attributes.get("value"), attributes["type"].value if "type" in attributes else "auto"
+    if value is not None and "$(" not in value.value and not _is_of_type(value.value, kind):
+        yield value, f"`{value.value}` is no value of type `{kind}`, so roslaunch stops"
     for name in ("value", "textfile", "command"):
         attribute = attributes.get(name)
         if attribute is None:
@@ -214,6 +217,20 @@ def _parameter(
             yield attribute, "`value` is the path of the file, not its content; use the attribute `textfile`"
         elif name == "textfile" and _is_xacro(_default(attribute.value, defaults), model):
             yield attribute, '`textfile` loads xacro without expanding it; use `command="xacro …"`'
+
+
+_NUMBERS = {
+    "int": r"[-+]?(?:0[xX][0-9a-fA-F]+|\d+)",
+    "double": r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|nan|[-+]?inf",
+}
+"""Type of a parameter of ROS 1 → pattern of its values (roslaunch, loader.py)."""
+
+
+def _is_of_type(text: str, kind: str) -> bool:
+    """Return whether roslaunch converts a text to a type."""
+    if kind == "bool":
+        return text.strip().lower() in _TRUTH
+    return kind not in _NUMBERS or re.fullmatch(_NUMBERS[kind], text.strip()) is not None
 
 
 def _default(text: str, defaults: dict[str, str]) -> str:

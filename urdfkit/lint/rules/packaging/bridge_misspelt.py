@@ -46,6 +46,7 @@ class BridgeMisspelt(RobotRule):
     - misspelt message types, keys, directions and topics of the robot
     - pairs of types that cannot be converted, and pairs of topics of the left and the right side of the robot
     - topics of commands and sensors that are bridged in the wrong direction
+    - the clock and the joint states, which nodes need, if no bridge has them
 
     ## Why is this bad?
     The bridge logs "No template specialization for the pair", or waits silently for a topic that does not exist.
@@ -77,6 +78,7 @@ class BridgeMisspelt(RobotRule):
         if not sources:
             return
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.gazebo.unbridged_topics import unbridged
 
         bridges: list[tuple[Source, Bridged]] = []
         for source in sources:
@@ -104,6 +106,8 @@ class BridgeMisspelt(RobotRule):
             defect = _type_defect(bridge) or _direction_defect(bridge) or _former_type(bridge, model)
             if defect is not None:
                 yield self._at(source, *defect)
+        for source, topic, message in unbridged(bridges, model):
+            yield self._at(source, topic, message, "lacking")
         below: dict[str, set[str]] = {}
         for _, bridge in bridges:
             space, _, last = (bridge.topic.name if bridge.topic is not None else "").strip("/").rpartition("/")

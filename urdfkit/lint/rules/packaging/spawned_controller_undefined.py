@@ -54,7 +54,7 @@ class SpawnedControllerUndefined(RobotRule):
         from urdfkit.lint.facts.control.spawned_namespaces import plugins_in_other_namespace
         from urdfkit.lint.facts.control.spawned_together import SPAWNERS, left_out, spawned, untyped
 
-        launches = [file for file in model.related_files.values() if re.search(r"spawner", file.text)]
+        launches = [file for file in model.related_files.values() if re.search(r"spawner|load_controller", file.text)]
         parameter_files = [file for file in model.related_files.values() if file.file.endswith((".yaml", ".yml"))]
         if not launches or not parameter_files:
             return

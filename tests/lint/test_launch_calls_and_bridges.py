@@ -1,0 +1,172 @@
+"""Nodelets, parameter types, handlers in a circle, commands of ros2 control, and bridges that a loop composes."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.lint.test_launch_mistakes import found, package, write
+
+NODELETS = """<launch>
+  <node pkg="nodelet" type="nodelet" name="manager" args="manager"/>
+  <node pkg="nodelet" type="nodelet" name="cloud" args="load depth_image_proc/point_cloud_xyz manager"/>
+  <param name="rate" type="int" value="20"/>
+  <param name="gain" type="double" value="1.5e-1"/>
+  <param name="verbose" type="bool" value="False"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ("cloud_xyz ", "cloud_xyzz ", 3, "package `depth_image_proc` has no nodelet `point_cloud_xyzz`"),
+        ('"load depth_image_proc/point_cloud_xyz manager"', '"load"', 3, "`load` needs the class of the nodelet"),
+        ('"nodelet" name="cloud"', '"nodelets" name="cloud"', 3, "package `nodelet` has no executable `nodelets`"),
+        ('value="20"', 'value="20.0"', 4, "`20.0` is no value of type `int`, so roslaunch stops"),
+        ('value="1.5e-1"', 'value="1.5 m"', 5, "`1.5 m` is no value of type `double`, so roslaunch stops"),
+        ('value="False"', 'value="no"', 6, "`no` is no value of type `bool`, so roslaunch stops"),
+    ],
+)
+def test_a_wrong_nodelet_or_parameter_is_reported(tmp_path, old, new, line, message):
+    cart = package(tmp_path / "cart", "catkin", "nodelet", "depth_image_proc")
+    for text, expected in ((NODELETS.replace(old, new), [(line, message)]), (NODELETS, [])):
+        write(cart / "launch/cart.launch", text)
+        assert [(at, words.partition(";")[0]) for _, at, words in found(cart, "L103", "L110")] == expected
+
+
+CONTROL = """
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch_ros.actions import Node
+
+
+def load(name):
+    return ExecuteProcess(cmd=["ros2", "control", "load_controller", "--set-state", "active", name])
+
+
+def generate_launch_description():
+    spawn = Node(package="ros_gz_sim", executable="create", arguments=["-topic", "robot_description"])
+    states = load("joint_state_broadcaster")
+    drive = load("drive_controller")
+    return LaunchDescription([
+        spawn,
+        RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[states])),
+        RegisterEventHandler(OnProcessExit(target_action=states, on_exit=[drive])),
+    ])
+"""
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    joint_state_broadcaster: {type: joint_state_broadcaster/JointStateBroadcaster}
+    drive_controller: {type: diff_drive_controller/DiffDriveController}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ('"drive_controller"', '"drive_controler"', 15, "unknown controller `drive_controler`"),
+        ('"load_controller"', '"load_controllers"', 9, "`ros2 control` has no command `load_controllers`"),
+        ('"--set-state"', '"--state"', 9, "`load_controller` has no option `--state`"),
+        ('"active"', '"activ"', 9, "unknown state `activ` of a controller"),
+        (
+            "target_action=spawn",
+            "target_action=drive",
+            18,
+            "`drive` starts after `states`, which waits for `drive`: neither of them starts",
+        ),
+    ],
+)
+def test_a_wrong_command_of_ros2_control_is_reported(tmp_path, old, new, line, message):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "ros_gz_sim", "ros2controlcli")
+    write(cart / "config/controllers.yaml", CONTROLLERS)
+    for text, expected in ((CONTROL.replace(old, new), [(line, message)]), (CONTROL, [])):
+        write(cart / "launch/cart.launch.py", text)
+        listed = found(cart, "L106", "L122", "K960")
+        assert [(at, words.partition(";")[0]) for _, at, words in listed] == expected
+
+
+BRIDGES = """
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.substitutions import PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+TOPICS = {
+    "clock": ("rosgraph_msgs/msg/Clock", "[", "gz.msgs.Clock"),
+    "scan": ("sensor_msgs/msg/LaserScan", "[", "gz.msgs.LaserScan"),
+    "joint_states": ("sensor_msgs/msg/JointState", "[", "gz.msgs.Model"),
+}
+
+
+def generate_launch_description():
+    arguments = []
+    for topic, (ros, way, gazebo) in TOPICS.items():
+        arguments.append(f"/{topic}@{ros}{way}{gazebo}")
+    arguments.append("/cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twist")
+    return LaunchDescription([
+        IncludeLaunchDescription(
+            PathJoinSubstitution([FindPackageShare("ros_gz_sim"), "launch", "gz_sim.launch.py"])),
+        Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[{"use_sim_time": True}]),
+        Node(package="ros_gz_bridge", executable="parameter_bridge", arguments=arguments),
+    ])
+"""
+JOINTS = '<robot name="cart"><link name="base"/><gazebo>\n<plugin filename="gz-sim-joint-state-publisher-system"'
+JOINTS += ' name="gz::sim::systems::JointStatePublisher">\n<topic>joint_states</topic></plugin></gazebo></robot>\n'
+
+
+def _without(name: str) -> str:
+    return "".join(line for line in BRIDGES.splitlines(keepends=True) if f'    "{name}": (' not in line)
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        (BRIDGES, 0, ""),
+        (BRIDGES.replace("gz.msgs.LaserScan", "gz.msgs.LaserScann"), 10, "unknown Gazebo type `gz.msgs.LaserScann`"),
+        (BRIDGES.replace('Scan", "["', 'Scan", "]"'), 10, "Gazebo publishes `LaserScan` and does not read it"),
+        (BRIDGES.replace("msg/Twist]", "msg/Twits]"), 19, "unknown ROS type `geometry_msgs/msg/Twits`"),
+        (_without("clock"), 9, "no bridge has the topic `clock`, so the time of nodes with `use_sim_time` stays at"),
+        (_without("joint_states"), 9, "no bridge has the joint states of the robot"),
+    ],
+)
+def test_bridges_that_a_loop_composes_are_checked(tmp_path, text, line, message):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "ros_gz_sim", "ros_gz_bridge")
+    write(cart / "cart.urdf", JOINTS)
+    write(cart / "launch/cart.launch.py", text)
+    listed = [(at, words[: len(message)]) for _, at, words in found(cart, "K969")]
+    assert listed == ([(line, message)] if message else [])
+
+
+def test_alternatives_under_opposite_conditions_are_no_separated_nodes(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "robot_state_publisher", "joint_state_publisher")
+    state = '<node name="state" pkg="robot_state_publisher" type="robot_state_publisher">{}</node>'
+    remap = '<remap from="joint_states" to="/cart/joint_states"/>'
+    joints = '<node name="joints" pkg="joint_state_publisher" type="joint_state_publisher"/>'
+    own = '<launch><arg name="sim" default="true"/>\n<group if="$(arg sim)">{}</group>\n<group unless="$(arg sim)">{}'
+    for inner, count in (("", 1), (state.format(""), 0)):
+        write(cart / "launch/a.launch", own.format(state.format(remap), joints + inner) + "</group></launch>\n")
+        assert len(found(cart, "K980")) == count
+
+
+def test_a_map_that_rewritten_parameters_name_is_found(tmp_path):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "nav2_map_server", "nav2_common")
+    write(cart / "config/map.yaml", 'map_server:\n  ros__parameters:\n    yaml_filename: ""\n')
+    text = """
+from launch import LaunchDescription
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+from nav2_common.launch import RewrittenYaml
+
+
+def generate_launch_description():
+    file = PathJoinSubstitution([FindPackageShare("cart"), "config", "map.yaml"])
+    params = RewrittenYaml(source_file=file, param_rewrites={"NAME": LaunchConfiguration("map", default="m.yaml")})
+    server = Node(package="nav2_map_server", executable="map_server", name="map_server", parameters=[params])
+    return LaunchDescription([server])
+"""
+    for name, count in (("topic_name", 1), ("yaml_filename", 0)):
+        write(cart / "launch/m.launch.py", text.replace("NAME", name))
+        assert len(found(cart, "L126")) == count
