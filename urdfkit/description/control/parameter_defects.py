@@ -60,6 +60,9 @@ STEERED = {
 
 _FOUR_WHEELS = "four_wheel_steering_controller/FourWheelSteeringController"
 """The one type of ROS 1 in which `front_steering` is a list of joints."""
+_OTHER_KINDS = ((_FOUR_WHEELS, "front_steering"), ("gpio_controllers/GpioCommandController", "command_interfaces"))
+"""Types of controllers, and a parameter that is of another kind in them."""
+
 _REQUIRED = {
     "joint_trajectory_controller/JointTrajectoryController": ("joints", "command_interfaces"),
     "forward_command_controller/ForwardCommandController": ("interface_name", "joints"),
@@ -132,7 +135,7 @@ def invalid_parameters(settings: Settings, ros: int) -> Iterator[DescriptionErro
     if kind not in TYPES:
         return
     for name, read in _READERS.items():
-        if settings.find(name) is None or (kind, name) == (_FOUR_WHEELS, "front_steering"):
+        if settings.find(name) is None or (kind, name) in _OTHER_KINDS:
             continue
         try:
             read(settings, name)

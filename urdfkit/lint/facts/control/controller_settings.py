@@ -26,6 +26,9 @@ _NESTED: dict[str, tuple[str, ...]] = {
         "antiwindup",
         "ff_velocity_scale",
         "publish_state",
+        "u_clamp_min",
+        "u_clamp_max",
+        "feedforward_gain",
     ),
     "constraints": ("stopped_velocity_tolerance", "goal_time", "trajectory", "goal", "stopped_position_tolerance"),
     **dict.fromkeys(

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, walk
 from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1
 
 COSTMAPS = ("local_costmap", "global_costmap")
@@ -31,6 +31,18 @@ def costmaps_not_nested(source: Source) -> Iterator[tuple[Node, str]]:
         for key, value in root.entries:
             if key.text in COSTMAPS and value.find(PARAMETERS) is not None and value.find(key.text) is None:
                 yield key, f"the node is `/{key.text}/{key.text}`; write `{key.text}:` twice, one level below the other"
+
+
+def outside_parameters(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the keys next to ``ros__parameters`` that are no nodes, for which rcl refuses the file.
+
+    Source: rcl_yaml_param_parser/src/parse.c, "Cannot have a value before ros__parameters".
+    """
+    for node in nodes(source) if PARAMETERS in source.text else ():
+        for key, value in node.entries if node.find(PARAMETERS) is not None else ():
+            is_node = any(each.find(PARAMETERS) is not None for each in walk(value))
+            if key.text != PARAMETERS and not is_node and (value.entries or value.text or value.items):
+                yield key, f"`{key.text}` is next to `{PARAMETERS}`, not below it; indent it"
 
 
 def costmaps_of_ros1(source: Source) -> Iterator[Node]:

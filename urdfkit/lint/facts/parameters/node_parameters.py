@@ -34,7 +34,7 @@ def node_defects(source: Source) -> Defects:
             if right is not None and right not in written and not _is_named_by(group, name):
                 yield parameter, f"`{key.text}` has no parameter `{name}`" + Suggestion(right, name)
             for pattern, type in schemas().get(kind, ()):
-                if fnmatchcase(name, pattern) and (problem := _problem(name, value, type)):
+                if fnmatchcase(name, pattern) and (problem := type_problem(name, value, type)):
                     yield (parameter if value.kind == "group" else value), problem
         if kind.startswith("teleop"):
             yield from _shared_axes(group)
@@ -108,7 +108,7 @@ def _is_named_by(group: Node, name: str) -> bool:
     return any(item.text == name for _, value in group.entries for item in value.items)
 
 
-def _problem(name: str, value: Node, type: str) -> str:
+def type_problem(name: str, value: Node, type: str) -> str:
     """Return why a value has not the type of its parameter; empty if it has, or if it is computed."""
     kind, *rest = type.split()
     if kind == "keys":

@@ -104,6 +104,7 @@ def _parameters_in_tables() -> dict[int, tuple[str, ...]]:
     from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1, DOUBLES, INTEGERS, ORDERED, OTHERS, SWITCHES
     from urdfkit.lint.facts.parameters.ranges import range_names
     from urdfkit.lint.facts.parameters.schemas import OF_ROS1, schemas
+    from urdfkit.lint.facts.plugins.typed_groups import names_of_plugins
 
     names = {
         *COSTMAP_ROS1,
@@ -115,6 +116,7 @@ def _parameters_in_tables() -> dict[int, tuple[str, ...]]:
         *(n for pair in ORDERED for n in pair),
     }
     names |= {name.rpartition(".")[2] for rows in schemas().values() for name, _ in rows}
+    names |= names_of_plugins()
     names |= {name for renamed in OF_ROS1.values() for name in renamed.values()}
     found: dict[int, list[str]] = {}
     for name in sorted(name for name in names if "*" not in name and len(name) >= 6):

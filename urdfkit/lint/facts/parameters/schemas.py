@@ -269,8 +269,13 @@ _KINDS = {"ekf_filter_node": "ekf"}
 @cache
 def schemas() -> dict[str, list[tuple[str, str]]]:
     """Return node → patterns of parameters and their types."""
+    return rows_of(_SCHEMAS)
+
+
+def rows_of(table: str) -> dict[str, list[tuple[str, str]]]:
+    """Return name → patterns of parameters and their types, of a table in the form of `_SCHEMAS`."""
     found: dict[str, list[tuple[str, str]]] = {}
-    for block in _SCHEMAS.strip().split("\n\n"):
+    for block in table.strip().split("\n\n"):
         head, *rows = block.splitlines()
         entries = [
             (name, kind.strip()) for row in rows for names, _, kind in [row.partition(":")] for name in names.split()

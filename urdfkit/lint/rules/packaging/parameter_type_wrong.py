@@ -43,6 +43,7 @@ class ParameterTypeWrong(RobotRule):
         from urdfkit.lint.facts.parameters.declared_types import wrong_types_of_own_nodes
         from urdfkit.lint.facts.parameters.node_parameters import wrong_numbers_of_nodes
         from urdfkit.lint.facts.parameters.own_parameters import wrong_types_in_launch, wrong_types_of_released_nodes
+        from urdfkit.lint.facts.plugins.typed_groups import wrong_numbers_of_plugins
 
         for source, value, message, declaration in wrong_types_of_own_nodes(model):
             is_wrong = declaration is not None
@@ -54,12 +55,15 @@ class ParameterTypeWrong(RobotRule):
                 message = f"`{name}` is the integer {value.text}; write {value.text}.0"
                 yield self.at_span(span_of(source, value), message)
         for source in yamls(model):
+            of_controllers = set[tuple[int, int]]()
             for value, name, controller in integers_for_doubles(source):
+                of_controllers.add((value.line, value.column))
                 message = f"`{name}` of controller `{controller}` is the integer {value.text}; write {value.text}.0"
                 yield self.at_span(span_of(source, value), message)
             wrong = {(value.line, value.column): (value, name, right) for value, name, right in wrong_numbers(source)}
-            for value, name, right in wrong_numbers_of_nodes(source):
-                wrong.setdefault((value.line, value.column), (value, name, right))
+            for value, name, right in (*wrong_numbers_of_nodes(source), *wrong_numbers_of_plugins(source)):
+                if (value.line, value.column) not in of_controllers:
+                    wrong.setdefault((value.line, value.column), (value, name, right))
             for value, name, right in wrong.values():
                 kind = "integer" if right.endswith(".0") else "number with a decimal point"
                 message = f"`{name}` is the {kind} {value.text}; write {right}"

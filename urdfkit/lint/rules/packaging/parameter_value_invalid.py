@@ -20,7 +20,7 @@ class ParameterValueInvalid(RobotRule):
     Checks the YAML files of the robot's package and of packages that depend on it for:
 
     - keys that occur twice in a group, minima above their maxima, and misspelt ``true`` and ``false``
-    - for the parameters of well-known nodes, wrong types and outdated names; lists of lists, which ROS 2 rejects
+    - for the parameters of well-known nodes and plugins, wrong types, names and levels; lists of lists in ROS 2
     - in robot_localization, a wrong world frame and sensor configurations without 15 values
     - in Nav2, plugins that are listed without a section, and limits that the nodes reject
     - in maps, a missing image, an unknown mode, impossible numbers and a resolution that contradicts the origin
@@ -63,6 +63,8 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.description.control.parameter_defects import invalid_parameters
         from urdfkit.lint.facts.control.controller_settings import misspelt_sections, sections_without_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
+        from urdfkit.lint.facts.navigation.sections import outside_parameters
+        from urdfkit.lint.facts.plugins.typed_groups import typed_defects
 
         unread = {
             source.file
@@ -73,6 +75,11 @@ class ParameterValueInvalid(RobotRule):
         for finding in self._in_yaml(model, unread):
             places.add((finding.span.file, finding.span.line))
             yield finding
+        for source in yamls(model):
+            for node, message in (*outside_parameters(source), *typed_defects(source)):
+                if (source.file, node.line) not in places:
+                    places.add((source.file, node.line))
+                    yield self.at_span(span_of(source, node), message, kind="plugin")
         for _, settings, ros in loaded_controllers(model):
             for error in invalid_parameters(settings, ros):
                 place = error.position

@@ -1,0 +1,127 @@
+"""Parameters of plugins, controllers and further nodes: types, lengths, names, levels and signs."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.navigation.sections import outside_parameters
+from urdfkit.lint.facts.plugins.typed_groups import typed_defects, typed_groups, wrong_numbers_of_plugins
+
+CONTROLLER = """controller_server:
+  ros__parameters:
+    controller_frequency: 20.0
+    controller_plugins: [FollowPath]
+    FollowPath:
+      plugin: nav2_mppi_controller::MPPIController
+      time_steps: 56
+      vx_max: 0.5
+      az_max: 3.5
+      prune_distance: 1.7
+      visualize: false
+      critics: [GoalCritic]
+      GoalCritic:
+        enabled: true
+        cost_power: 1
+        cost_weight: 5.0
+        threshold_to_consider: 1.4
+    general_goal_checker:
+      plugin: nav2_controller::SimpleGoalChecker
+      xy_goal_tolerance: 0.25
+      yaw_goal_tolerance: 0.25
+"""
+DOCKING = """docking_server:
+  ros__parameters:
+    undock_linear_tolerance: 0.05
+    dock_plugins: [charger]
+    charger:
+      plugin: opennav_docking::SimpleChargingDock
+      staging_x_offset: -0.7
+      docking_threshold: 0.05
+    docks: [home]
+    home:
+      type: charger
+      pose: [1.0, 2.0, 0.0]
+"""
+ADMITTANCE = """controller_manager:
+  ros__parameters:
+    force_controller:
+      type: admittance_controller/AdmittanceController
+force_controller:
+  ros__parameters:
+    joints: [shoulder, elbow]
+    admittance:
+      selected_axes: [true, true, true, false, false, false]
+      mass: [3.0, 3.0, 3.0, 1.0, 1.0, 1.0]
+"""
+MECANUM = """controller_manager:
+  ros__parameters:
+    drive:
+      type: mecanum_drive_controller/MecanumDriveController
+drive:
+  ros__parameters:
+    reference_timeout: 0.5
+    kinematics:
+      base_frame_offset: {x: 0.0, y: 0.0, theta: 0.0}
+      wheels_radius: 0.08
+"""
+CLOUD = """cloud_to_scan:
+  ros__parameters:
+    min_height: -0.2
+    max_height: 1.0
+    angle_min: -1.0
+    angle_max: 1.0
+    range_max: 6.0
+    use_inf: true
+"""
+ROS1 = """TebLocalPlannerROS:
+  max_vel_x: 0.5
+  acc_lim_x: 1
+  weight_obstacle: 50
+  no_inner_iterations: 5
+  teb_autosize: true
+"""
+
+
+def messages(text: str) -> list[str]:
+    """Return the messages for a YAML file."""
+    source = Source("parameters.yaml", text)
+    found = [message for _, message in (*typed_defects(source), *outside_parameters(source))]
+    return found + [f"{name}: {right}" for _, name, right in wrong_numbers_of_plugins(source)]
+
+
+@pytest.mark.parametrize("text", [CONTROLLER, DOCKING, ADMITTANCE, MECANUM, CLOUD, ROS1])
+def test_correct_parameters_have_no_finding(text: str) -> None:
+    assert list(typed_groups(Source("parameters.yaml", text)))
+    assert messages(text) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "expected"),
+    [
+        (CONTROLLER, "az_max: 3.5", "az_max: 3", "az_max: 3.0"),
+        (CONTROLLER, "cost_power: 1", "cost_power: 1.0", "GoalCritic.cost_power: 1"),
+        (CONTROLLER, "visualize: false", 'visualize: "false"', '`visualize` is "false", a text; write false'),
+        (CONTROLLER, "vx_max: 0.5", "vx_max: [0.5]", "`vx_max` is a list, but a number is needed"),
+        (CONTROLLER, "threshold_to_consider: 1.4", "threshold_to_consider: -1.4", "must not be negative"),
+        (CONTROLLER, "prune_distance", "prune_distnace", "`MPPIController` has no parameter `prune_distnace`"),
+        (CONTROLLER, "      yaw_goal", "    yaw_goal", "belongs in `general_goal_checker`; indent it"),
+        (CLOUD, "    use_inf", "  use_inf", "next to `ros__parameters`, not below it"),
+        (DOCKING, "[1.0, 2.0, 0.0]", "[1.0, 2.0]", "`home.pose` has 2 values; 3 are needed"),
+        (DOCKING, "docking_threshold: 0.05", "docking_thresold: 0.05", "did you mean `docking_threshold`"),
+        (ADMITTANCE, "3.0, 1.0, 1.0, 1.0]", "3.0, 1.0, 1.0]", "`admittance.mass` has 5 values; 6 are needed"),
+        (CLOUD, "range_max: 6.0", "range_max: 6", "range_max: 6.0"),
+        (ROS1, "weight_obstacle: 50", 'weight_obstacle: "50"', '`weight_obstacle` is "50", a quoted string'),
+        (ROS1, "acc_lim_x: 1", "acc_lim_x: -1.5", "`acc_lim_x` is -1.5; it must not be negative"),
+    ],
+)
+def test_a_wrong_parameter_is_reported(text: str, old: str, new: str, expected: str) -> None:
+    assert text.count(old) == 1
+    found = messages(text.replace(old, new))
+    assert len(found) == 1
+    assert expected in found[0]
+
+
+def test_nodes_may_be_nested_in_a_namespace_with_parameters() -> None:
+    nested = "robot:\n  ros__parameters: {rate: 5.0}\n  ekf:\n    ros__parameters: {frequency: 30.0}\n"
+    assert messages(nested) == []

@@ -1,0 +1,4 @@
+"""Parameters of plugins, controllers and nodes, with the tables of their types.
+
+Input: YAML files; output: YAML nodes with messages.
+"""
