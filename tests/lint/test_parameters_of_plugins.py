@@ -5,7 +5,10 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import nodes
+from urdfkit.lint.facts.navigation.defects import navigation_defects
 from urdfkit.lint.facts.navigation.sections import outside_parameters
+from urdfkit.lint.facts.parameters.ranges import out_of_range
 from urdfkit.lint.facts.plugins.typed_groups import typed_defects, typed_groups, wrong_numbers_of_plugins
 
 CONTROLLER = """controller_server:
@@ -125,3 +128,51 @@ def test_a_wrong_parameter_is_reported(text: str, old: str, new: str, expected: 
 def test_nodes_may_be_nested_in_a_namespace_with_parameters() -> None:
     nested = "robot:\n  ros__parameters: {rate: 5.0}\n  ekf:\n    ros__parameters: {frequency: 30.0}\n"
     assert messages(nested) == []
+
+
+SMOOTHER = """velocity_smoother:
+  ros__parameters:
+    smoothing_frequency: 20.0
+    max_velocity: [0.5, 0.0, 2.0]
+    max_accel: [2.5, 0.0, 3.2]
+    max_decel: [-2.5, 0.0, -3.2]
+"""
+SERVO = """publish_period: 0.02
+move_group_name: arm
+joint_limit_margin: 0.1
+check_collisions: true
+lower_singularity_threshold: 17.0
+hard_stop_singularity_threshold: 30.0
+"""
+
+
+def test_an_acceleration_of_zero_is_reported_where_a_velocity_is_positive() -> None:
+    assert list(navigation_defects(Source("smoother.yaml", SMOOTHER), frozenset())) == []
+    wrong = Source("smoother.yaml", SMOOTHER.replace("[2.5, 0.0, 3.2]", "[0.0, 2.5, 3.2]"))
+    ((place, message),) = navigation_defects(wrong, frozenset())
+    assert (place.line, message) == (
+        5,
+        "`max_accel` has 0 where `max_velocity` is 0.5, so this velocity never changes",
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "expected"),
+    [
+        (CONTROLLER, "az_max: 3.5", "az_max: 3500.0", "`az_max` is 3500 rad/s²"),
+        (CLOUD, "range_max: 6.0", "range_max: 6000.0", "`range_max` is 6000 m"),
+        (SERVO, "publish_period: 0.02", "publish_period: 20.0", "`publish_period` is 20 s"),
+        (SERVO, "joint_limit_margin: 0.1", "joint_limit_margin: 5.7", "`joint_limit_margin` is 5.7"),
+    ],
+)
+def test_values_of_another_unit_are_out_of_range(text: str, old: str, new: str, expected: str) -> None:
+    text = text.replace("vx_max", "wz_max: 1.5\n      vx_max")
+    assert list(out_of_range(nodes(Source("parameters.yaml", text)))) == []
+    found = [message for _, message in out_of_range(nodes(Source("parameters.yaml", text.replace(old, new))))]
+    assert [message.partition(",")[0] for message in found] == [expected]
+
+
+def test_parameters_of_servo_are_known_without_a_node() -> None:
+    assert messages(SERVO) == []
+    (found,) = messages(SERVO.replace("move_group_name", "move_gruop_name"))
+    assert "did you mean `move_group_name`" in found

@@ -18,7 +18,13 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, 
 _POSITIVE = frozenset(
     (
         *("update_rate", "publish_rate", "state_publish_rate", "action_monitor_rate", "wheelbase"),
-        *("wheels_per_side", "front_wheel_track", "rear_wheel_track", "traction_wheels_radius"),
+        *(
+            "velocity_rolling_window_size",
+            "wheels_per_side",
+            "front_wheel_track",
+            "rear_wheel_track",
+            "traction_wheels_radius",
+        ),
         *("traction_track_width", "steering_track_width", "wheel_separation_multiplier", "wheel_radius_multiplier"),
     )
 )

@@ -321,6 +321,13 @@ def _stopped(group: Node) -> Defects:
                 f"`deadband_velocity` contains {width:g}, not below `max_velocity`, {most:g}: the robot never moves",
             )
             break
+    for name in ("max_accel", "max_decel"):
+        rates = group.find(name)
+        is_whole = rates is not None and limits is not None and len(rates.items) == len(limits.items)
+        pairs = zip(rates.items, limits.items, strict=True) if rates and limits and is_whole else ()
+        for rate_of, limit in pairs:
+            if number_of(rate_of) == 0.0 and (number_of(limit) or 0.0) > 0.0:
+                yield rate_of, f"`{name}` has 0 where `max_velocity` is {limit.text}, so this velocity never changes"
     rate, timeout = number_of(group.find("smoothing_frequency")), group.find("velocity_timeout")
     time = number_of(timeout)
     if timeout is not None and rate and time is not None and 0.0 < time < 1.0 / rate:

@@ -167,7 +167,8 @@ def _between_nodes(groups: dict[str, Node]) -> Defects:
     docking = groups.get("docking_server")
     kinds = docking.find("dock_plugins") if docking is not None else None
     names = kinds.texts() if kinds is not None else ()
-    for _, dock in docking.entries if docking is not None and names else ():
+    written = {key.text for key, _ in docking.entries} if docking is not None else set[str]()
+    for _, dock in docking.entries if docking is not None and written.issuperset(names) and names else ():
         kind = dock.find("type")
         if kind is not None and dock.find("pose") is not None and kind.text not in names:
             hint = Suggestion(nearest(kind.text, names), kind.text)

@@ -180,6 +180,9 @@ def _of_elastic_band(group: Node) -> Iterator[tuple[Node, str]]:
     """Yield a footprint of another type than its parameters, and an inflation that ends where obstacles begin."""
     shape = group.find("footprint_model")
     kind = shape.find("type") if shape is not None else None
+    near = nearest(kind.text, ("point", *_FOOTPRINTS)) if kind is not None and kind.text else None
+    if kind is not None and near is not None and near != kind.text:
+        yield kind, f"unknown `type` `{kind.text}` of the footprint" + Suggestion(near, kind.text)
     if shape is not None and kind is not None and kind.text in _FOOTPRINTS:
         needed = _FOOTPRINTS[kind.text]
         others = [name for name, each in _FOOTPRINTS.items() if shape.find(each) is not None]

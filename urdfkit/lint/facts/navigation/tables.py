@@ -155,6 +155,7 @@ OTHERS = frozenset(_OTHERS.split())
 
 CHOICES = {
     "laser_model_type": ("beam", "likelihood_field", "likelihood_field_prob"),
+    "odom_model_type": ("diff", "omni", "diff-corrected", "omni-corrected"),
     "solver_plugin": ("solver_plugins::CeresSolver", "solver_plugins::G2oSolver", "solver_plugins::SpaSolver"),
     "ceres_linear_solver": ("SPARSE_NORMAL_CHOLESKY", "SPARSE_SCHUR", "ITERATIVE_SCHUR", "CGNR"),
     "ceres_preconditioner": ("SCHUR_JACOBI", "JACOBI", "IDENTITY"),
@@ -175,9 +176,7 @@ SIMILAR = {
         *("nav2_amcl::DifferentialMotionModel", "nav2_amcl::OmniMotionModel", "differential", "omnidirectional"),
         *("omni_directional",),
     ),
-    "odom_model_type": ("diff", "omni", "diff-corrected", "omni-corrected"),
     "motion_model_for_search": ("DUBIN", "REEDS_SHEPP", "STATE_LATTICE", "MOORE", "VON_NEUMANN"),
-    "action_type": ("stop", "slowdown", "limit", "approach", "none"),
 }
 """Parameters for which a value that differs by a letter is misspelt; other values can be those of plugins."""
 

@@ -6,7 +6,7 @@ from fnmatch import fnmatchcase
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.controller_settings import settings
+from urdfkit.lint.facts.control.controller_settings import misspelt_sections, settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, walk, yamls
 from urdfkit.lint.facts.navigation.defects import choice_defects
@@ -46,7 +46,7 @@ def node_defects(source: Source) -> Defects:
 def node_defects_of_ros1(model: Model) -> Iterator[tuple[Source, Node, str]]:
     """Yield the parameters of ROS 2 in the YAML files of ROS 1: of controllers, costmaps and launched nodes."""
     for source in yamls(model):
-        if PARAMETERS in source.text:
+        if PARAMETERS in source.text or any(misspelt_sections(source)):
             continue
         for one in settings(source):
             names = OF_CONTROLLERS.get(one.kind, {})

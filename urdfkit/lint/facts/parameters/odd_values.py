@@ -13,6 +13,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, nodes, number_of
 from urdfkit.lint.facts.parameters.misspelt_names import is_misspelt
+from urdfkit.lint.facts.plugins.class_names import misspelt_classes
 from urdfkit.lint.model.model import Model
 
 Defects = Iterator[tuple[Node, str]]
@@ -44,6 +45,8 @@ _ORDERED = (
 
 _CAMEL = r"[a-z]+[a-z0-9]*(?:[A-Z][a-z0-9]+)+"
 
+_SLIPS_OF_ODOM = ("odm", "oom", "dom", "odmo", "oodm", "doom", "oddom", "oodom", "odoom", "odomm")
+
 _FRAMES = ("map", "odom", "base_link", "base_footprint", "world")
 
 
@@ -55,6 +58,7 @@ def odd_values(source: Source, model: Model) -> Defects:
         yield from _misspelt_joints(node, model)
         yield from _misspelt_frames(node, model)
         yield from _misspelt_parameters(node)
+        yield from misspelt_classes(node)
         for key, value in node.entries:
             if re.fullmatch(_LISTS_OF_NAMES, key.text):
                 yield from _repeated(key, value)
@@ -87,13 +91,17 @@ def _reversed(node: Node) -> Defects:
 def _misspelt_frames(node: Node, model: Model) -> Defects:
     """Yield the frames that differ by a letter from a usual frame or a link of the robot."""
     links = model.robot.link_by_name
-    for key, value in node.entries:
-        if not re.search(r"(?:^|_)frame(?:_id)?$", key.text) or value.kind != "text" or not value.text:
+    framed = {id(inner) for key, value in node.entries if key.text == "frame" and (inner := value.find("id"))}
+    inside = [entry for _, value in node.entries for entry in value.entries if id(entry[1]) in framed]
+    for key, value in (*node.entries, *inside):
+        is_frame = re.search(r"(?:^|_)frame(?:_id|_name)?$", key.text) or id(value) in framed
+        if not is_frame or value.kind != "text" or not value.text:
             continue
         name = value.text.strip("/")
         if name in links or name in _FRAMES or len(name) < 3 or "$" in name:
             continue
         near = next((each for each in (*_FRAMES, *links) if is_misspelt(name, each)), None)
+        near = "odom" if near is None and name in _SLIPS_OF_ODOM else near
         if near is not None and not model.neighbouring_descriptions.define("link", name):
             yield value, f"unknown frame `{name}`" + Suggestion(near, name)
 

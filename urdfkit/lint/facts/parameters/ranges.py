@@ -77,6 +77,52 @@ allowed_execution_duration_scaling||1 100
 allowed_goal_duration_margin||0.001 600 s
 allowed_start_tolerance||0.00001 3.2
 goal|trajectory|0.00001 3.2
+trajectory|goal|0.00001 10
+ax_max ay_max|vx_max|0.02 100 m/s²
+az_max|wz_max|0.02 300 rad/s²
+model_dt|time_steps|0.005 1 s
+vx_std vy_std wz_std|time_steps|0.005 10
+prune_distance|time_steps|0.05 100 m
+min_turning_r||0.01 50 m
+minimum_turning_radius min_turning_radius||0.01 50 m
+angular_dist_threshold|primary_controller|0.01 3.2 rad
+forward_sampling_distance|primary_controller|0.01 10 m
+analytic_expansion_max_length||0.05 100 m
+analytic_expansion_ratio||0.1 100
+lower_singularity_threshold hard_stop_singularity_threshold||1 10000
+simulation_time_step||0.005 2 s
+time_before_collision||0.05 60 s
+v_linear_min v_linear_max|k_phi,slowdown_radius,v_linear_max,v_linear_min|0.001 20 m/s
+k_phi k_delta|v_linear_max|0.02 100
+docking_threshold|staging_x_offset|0.001 2 m
+external_detection_timeout||0.01 120 s
+undock_linear_tolerance dock_prestaging_tolerance||0.001 4 m
+undock_angular_tolerance||0.001 3.2 rad
+filter_coef|docking_threshold|0 1
+range_max|range_min,use_inf,scan_time|0.1 500 m
+range_min|range_max|0.001 50 m
+angle_increment|angle_max|0.0001 0.5 rad
+scan_time|range_max,range_min|0.0001 60 s
+lower_threshold upper_threshold|use_message_range_limits,lower_replacement_value|0.001 1000 m
+neighbors|window|1 500
+laser_likelihood_max_dist||0.05 50 m
+odom_alpha1 odom_alpha2 odom_alpha3 odom_alpha4 odom_alpha5||0.0001 20
+kld_z pf_z||0.5 1
+kld_err pf_err||0.0001 0.5
+iterations|maxUrange|1 200
+max_global_plan_lookahead_dist||0.05 200 m
+min_obstacle_dist inflation_dist|dt_ref,teb_autosize|0.001 10 m
+dt_ref|teb_autosize,max_vel_x|0.01 5 s
+cost_factor|neutral_cost|0.001 10
+reset_distance|layer_names|0.02 100 m
+joint_limit_margin|move_group_name|0.001 1.6
+incoming_command_timeout||0.005 60 s
+publish_period|move_group_name|0.0005 1 s
+near_clipping_plane_distance|sensor_plugin|0.005 20 m
+far_clipping_plane_distance|sensor_plugin|0.1 500 m
+field_of_view|sensor_name|0.005 6.3 rad
+max_range|radiation_type|0.02 200 m
+filter_coefficient||0 1
 """
 """Parameters, then parameters of which one is in the same group (any if empty), then range and unit.
 
@@ -85,6 +131,8 @@ The first row of a parameter that fits its group counts: tricycle_controller has
 
 _ANGLES = {
     "magnetic_declination_radians": 1.6,
+    **dict.fromkeys(("external_detection_rotation_roll", "external_detection_rotation_pitch"), 6.3),
+    **dict.fromkeys(("external_detection_rotation_yaw", "lower_angle", "upper_angle"), 6.3),
     **dict.fromkeys(("yaw_offset", "initial_pose_a", "initial_pose.yaw"), 6.3),
 }
 """Parameter → its greatest sensible angle [rad]; the declination is below 0.6 rad except near the poles."""

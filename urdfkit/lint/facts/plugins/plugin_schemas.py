@@ -293,6 +293,16 @@ odom*_relative imu*_relative pose*_relative imu*_remove_gravitational_accelerati
 odom*_queue_size imu*_queue_size pose*_queue_size twist*_queue_size: int
 map_frame odom_frame base_link_frame world_frame: text
 
+moveit_servo
+publish_period incoming_command_timeout lower_singularity_threshold hard_stop_singularity_threshold: double
+joint_limit_margin collision_check_rate self_collision_proximity_threshold: double
+scene_collision_proximity_threshold scale.linear scale.rotational scale.joint: double
+use_gazebo low_latency_mode publish_joint_positions publish_joint_velocities publish_joint_accelerations: bool
+use_smoothing check_collisions halt_all_joints_in_joint_mode halt_all_joints_in_cartesian_mode: bool
+command_in_type command_out_type smoothing_filter_plugin_name move_group_name planning_frame ee_frame_name: text
+robot_link_command_frame cartesian_command_in_topic joint_command_in_topic joint_topic status_topic: text
+command_out_topic monitored_planning_scene_topic: text
+
 teleop_twist_joy
 axis_linear axis_angular enable_button enable_turbo_button: int
 scale_linear scale_linear_turbo scale_angular scale_angular_turbo: double

@@ -77,7 +77,7 @@ def _kind(name: str, node: Node, is_ros2: bool, types: dict[str, str]) -> str:
     named = plugin.class_name if plugin is not None and plugin.kind == "text" else types.get(name, "")
     if named in tables and named[:1].isupper() and (is_ros2 or named.endswith("ROS")):
         return named
-    if name in tables or name in schemas():
+    if name in tables or (is_ros2 and name in schemas()):
         return name if name in tables else ""
     names = [key.text.partition(".")[0] for key, _ in node.entries]
     counts: dict[str, int] = {}
