@@ -99,24 +99,15 @@ def _lengths(solid: WorldGeometry) -> tuple[float, ...]:
     return tuple([each for name in ("radius", "length") if (each := getattr(solid, name, None)) is not None])
 
 
-def _box(element: Element) -> Box:
-    size = element.find("size")
-    if size is None:
-        return Box((1.0, 1.0, 1.0))  # sdformat's default (box_shape.sdf), like the sizes below
-    x, y, z = floats(size, 3)
+def _three(element: Element, tag: str, condition: str) -> tuple[float, float, float]:
+    """Return three positive lengths [m]; without the child, those of sdformat's default (box_shape.sdf)."""
+    child = element.find(tag)
+    if child is None:
+        return 1.0, 1.0, 1.0
+    x, y, z = floats(child, 3)
     if min(x, y, z) <= 0:
-        raise wrong(size, f"<size> is `{size.text}`; every edge must be longer than zero")
-    return Box((x, y, z))
-
-
-def _ellipsoid(element: Element) -> Ellipsoid:
-    radii = element.find("radii")
-    if radii is None:
-        return Ellipsoid((1.0, 1.0, 1.0))
-    x, y, z = floats(radii, 3)
-    if min(x, y, z) <= 0:
-        raise wrong(radii, f"<radii> is `{radii.text}`; every radius must be greater than zero")
-    return Ellipsoid((x, y, z))
+        raise wrong(child, f"<{tag}> is `{child.text}`; every {condition} than zero")
+    return x, y, z
 
 
 def _plane(element: Element) -> Plane:
@@ -132,12 +123,12 @@ def _plane(element: Element) -> Plane:
 
 
 _SOLIDS: dict[str, Callable[[Element], WorldGeometry]] = {
-    "box": _box,
+    "box": lambda element: Box(_three(element, "size", "edge must be longer")),
     "sphere": lambda element: Sphere(positive(element, "radius")),
     "cylinder": lambda element: Cylinder(positive(element, "radius"), positive(element, "length")),
     "capsule": lambda element: Capsule(positive(element, "radius"), positive(element, "length")),
     "cone": lambda element: Cone(positive(element, "radius"), positive(element, "length")),
-    "ellipsoid": _ellipsoid,
+    "ellipsoid": lambda element: Ellipsoid(_three(element, "radii", "radius must be greater")),
     "plane": _plane,
 }
 
