@@ -69,8 +69,8 @@ FLOATS = _sizes(
     "s:s v:d memory:a last:a",
     # results of a step
     "effort:d tau:d R:b,9 r:b,3 P:t,3 S:d,6 twist:b,6 bias_acceleration:b,6 composite_mass:b composite_h:b,3",
-    "composite_T:b,6 force:b,6 M:e bias:d L:e inverse_diagonal:d u:d v_start:d s_ahead:s v_ahead:d slope_s:d",
-    "slope_v:d sum_s:d sum_v:d block_v:d block_f:d contact_origin:t,3 contact_point:c,3 contact_frame:c,9",
+    "composite_T:b,6 force:b,6 M:e bias:d L:e inverse_diagonal:d factored:b,10 u:d v_start:d s_ahead:s v_ahead:d",
+    "slope_s:d slope_v:d sum_s:d sum_v:d block_v:d block_f:d contact_origin:t,3 contact_point:c,3 contact_frame:c,9",
     "contact_gap:c contact_mu:c contact_impulse:c,3 pair_before:c,3 last_point:c,3 shape_middle:k,3",
     f"shape_half:k,3 shape_at:k,3 shape_reach:k,3 tree_low:t,3 tree_high:t,3 still:t,{OBSERVED} strayed:d",
     f"displaced:t,6 targets_at_sleep:d,10 gravity_last_step:3 pair_numbers:n pair_work:{memory.WORK} found_point:24",

@@ -51,6 +51,11 @@ def clip_edge(count: int, start: Vector, outward: Vector, plane: int, work: Any,
 
     A corner that a cut makes is numbered by the cut and by the edge it is on.
     """
+    furthest = -math.inf
+    for k in range(count):
+        furthest = max(furthest, dot(outward, sub(vertex_at(work, CLIPPED, k), start)))
+    if furthest <= INSIDE:
+        return count
     left = 0
     # A line is gone through once, a polygon all the way round.
     for k in range(count if count != 2 else 1):

@@ -120,6 +120,15 @@ def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float, factored: 
 
 
 @inlined
+def is_undamped(w: KernelWorld, first: int, beyond: int) -> bool:
+    """Return whether `smooth_motion` factors M alone."""
+    for d in range(first, beyond):  # noqa: SIM110
+        if w.damping[d] != 0.0 or w.approach_rate[d] != 0.0 or is_servo(w, d):
+            return False
+    return True
+
+
+@inlined
 def limited(w: KernelWorld, rows: int, dofs: int) -> bool:
     """Return whether one of the rows is a joint limit."""
     for k in range(rows):  # noqa: SIM110

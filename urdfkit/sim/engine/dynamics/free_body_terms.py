@@ -1,6 +1,7 @@
 """Mass matrix and bias forces of a single free body, written out: what `mass_matrix` computes for any tree.
 
-The dofs of a free body are along its own axes, so that M does not depend on its pose.
+The dofs of a free body are along its own axes, so that M does not depend on its pose, and is factored only when the
+mass, its centre or the tensor changes.
 """
 
 from urdfkit.sim.engine.compilation import inlined
@@ -53,3 +54,21 @@ def free_body_terms(w: KernelWorld, i: int) -> None:
     w.M[y], w.M[y + 1], w.M[y + 2], w.M[y + 3], w.M[y + 4] = h[2], 0.0, -h[0], T[1], T[3]
     w.M[z], w.M[z + 1], w.M[z + 2] = -h[1], h[0], 0.0
     w.M[z + 3], w.M[z + 4], w.M[z + 5] = T[2], T[4], T[5]
+
+
+@inlined
+def has_factors(w: KernelWorld, i: int, undamped: bool) -> bool:
+    """Return whether L has the factors of M alone of a free body; note that it will have them if it is `undamped`.
+
+    For that, ``factored`` has the numbers that M is computed from.
+    """
+    at = 10 * i
+    same = undamped and w.factored[at] == w.mass[i]
+    w.factored[at] = w.mass[i] if undamped else 0.0
+    for k in range(3):
+        same = same and w.factored[at + 1 + k] == w.centre[3 * i + k]
+        w.factored[at + 1 + k] = w.centre[3 * i + k]
+    for k in range(6):
+        same = same and w.factored[at + 4 + k] == w.tensor[6 * i + k]
+        w.factored[at + 4 + k] = w.tensor[6 * i + k]
+    return bool(same)

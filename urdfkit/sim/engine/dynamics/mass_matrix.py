@@ -17,8 +17,8 @@ from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.simd import LANES, load16, store
 from urdfkit.sim.engine.math.spatial_algebra import (
-    IDENTITY,
     ZERO,
+    Vector,
     add,
     compose,
     cross,
@@ -61,13 +61,17 @@ def place(w: KernelWorld, tree: int, s: Any, ahead: bool) -> None:
     point = load_vector(w.P, tree)
     for i in range(w.tree_body[tree], w.tree_body[tree + 1]):
         above = w.parent[i]
-        if above < 0:
-            R0, r0 = IDENTITY, sub(ZERO, point)
-        else:
-            R0, r0 = load_rotation(w.R, above), load_vector(w.r, above)
-        r0 = add(r0, rotate(R0, load_vector(w.place_p, i)))
-        R0 = compose(R0, load_rotation(w.place_R, i))
         at, dof, beyond = w.first_s[i], w.first_v[i], w.first_v[i + 1]
+        R0, r0 = load_rotation(w.place_R, i), load_vector(w.place_p, i)
+        if above < 0:
+            r0 = sub(r0, point)
+        else:
+            R_above = load_rotation(w.R, above)
+            r0 = add(load_vector(w.r, above), rotate(R_above, r0))
+            R0 = compose(R_above, R0)
+        if above < 0 and w.kind[i] == FREE:
+            place_free(w, i, R0, r0, s, ahead)
+            continue
         axes = load_rotation(w.R, i)
         lin, ang = load_spatial(w.subspace, dof)
         if w.kind[i] == REVOLUTE:
@@ -95,6 +99,32 @@ def place(w: KernelWorld, tree: int, s: Any, ahead: bool) -> None:
             lin, ang = load_spatial(w.subspace, d)
             ang = rotate(axes, ang)
             store_spatial(w.S, d, (add(rotate(axes, lin), cross(r0, ang)), ang))
+
+
+@inlined
+def place_free(w: KernelWorld, i: int, R0: Any, r0: Vector, s: Any, ahead: bool) -> None:
+    """Do what `place` does for a body that nothing holds, whose motion subspaces are its axes.
+
+    Args:
+        w: the world's arrays.
+        i: the body.
+        R0: rotation of its joint.
+        r0: its place [m].
+        s: coordinates.
+        ahead: as in `place`.
+    """
+    at, dof = w.first_s[i], w.first_v[i]
+    r0 = add(r0, rotate(R0, (s[at], s[at + 1], s[at + 2])))
+    before = load_rotation(w.R, i)
+    R0 = compose(R0, turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6]))
+    store_rotation(w.R, i, R0)
+    store_vector(w.r, i, r0)
+    axes = before if ahead else R0
+    for k in range(3):
+        axis = (axes[k], axes[3 + k], axes[6 + k])
+        if not ahead:
+            store_spatial(w.S, dof + k, (axis, ZERO))
+        store_spatial(w.S, dof + 3 + k, (cross(r0, axis), axis))
 
 
 @inlined

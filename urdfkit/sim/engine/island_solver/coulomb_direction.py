@@ -17,6 +17,7 @@ from urdfkit.sim.engine.island_solver.block_matrix import substitute
 from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.linear_systems import eliminate_and_solve
+from urdfkit.sim.engine.math.simd import LANES, load16, padded, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
@@ -88,7 +89,9 @@ def follow(w: KernelWorld, rows: int, n: int) -> int:
         if w.state[k] == SLIDES and w.mu[k] > 0.0:
             w.index[sliding] = k
             sliding += 1
-    at = 2 * sliding * sliding
+    # As `eliminate_and_solve` has it.
+    width = padded(sliding + 1)
+    at = 2 * sliding * width
     for j in range(sliding):
         k = w.index[j]
         for d in range(n):
@@ -100,8 +103,8 @@ def follow(w: KernelWorld, rows: int, n: int) -> int:
             w.A[at + d] = column[d]
         at += n
         for i in range(sliding):
-            w.A[(sliding + i) * sliding + j] = row_speed(w, w.index[i], column)
-        w.A[(sliding + j) * sliding + j] += 1.0
+            w.A[(sliding + i) * width + j] = row_speed(w, w.index[i], column)
+        w.A[(sliding + j) * width + j] += 1.0
     return sliding
 
 
@@ -114,11 +117,12 @@ def substitute_all(w: KernelWorld, n: int, sliding: int, x: Any) -> bool:
     share = w.velocity
     for i in range(sliding):
         share[i] = row_speed(w, w.index[i], x)
-    for i in range(sliding * sliding):
-        w.A[i] = w.A[sliding * sliding + i]
+    size = sliding * padded(sliding + 1)
+    for i in range(0, size, LANES):
+        store(w.A, i, load16(w.A, size + i))
     if not eliminate_and_solve(sliding, w.A, share):
         return False
-    at = 2 * sliding * sliding
+    at = 2 * size
     for j in range(sliding):
         for d in range(n):
             x[d] -= w.A[at + d] * share[j]

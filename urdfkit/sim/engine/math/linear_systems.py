@@ -38,28 +38,35 @@ def factor_and_solve(n: int, B: Any, x: Any) -> bool:
 
 @inlined
 def eliminate_and_solve(n: int, B: Any, x: Any) -> bool:
-    """Solve B·x = x in place; return whether B was regular (Gauss with partial pivoting)."""
+    """Solve B·x = x; return whether B was regular (Gauss with partial pivoting).
+
+    B has ``padded(n + 1)`` entries a row and is spent; x is eliminated with it, at n.
+    """
+    width = padded(n + 1)
+    for i in range(n):
+        B[i * width + n] = x[i]
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
-            if abs(B[i * n + k]) > abs(B[pivot * n + k]):
+            if abs(B[i * width + k]) > abs(B[pivot * width + k]):
                 pivot = i
-        if not abs(B[pivot * n + k]) > 0.0:
+        if not abs(B[pivot * width + k]) > 0.0:
             return False
         if pivot != k:
-            for j in range(k, n):
-                B[k * n + j], B[pivot * n + j] = B[pivot * n + j], B[k * n + j]
-            x[k], x[pivot] = x[pivot], x[k]
-        inverse = 1.0 / B[k * n + k]
+            for first in range(k & -LANES, width, LANES):
+                row = load16(B, k * width + first)
+                store(B, k * width + first, load16(B, pivot * width + first))
+                store(B, pivot * width + first, row)
+        inverse = 1.0 / B[k * width + k]
         for i in range(k + 1, n):
-            factor = B[i * n + k] * inverse
+            factor = B[i * width + k] * inverse
             if factor != 0.0:
-                for j in range(k + 1, n):
-                    B[i * n + j] -= factor * B[k * n + j]
-                x[i] -= factor * x[k]
+                for first in range(k & -LANES, width, LANES):
+                    at = i * width + first
+                    store(B, at, load16(B, at) - factor * load16(B, k * width + first))
     for i in range(n - 1, -1, -1):
-        total = x[i]
+        total = B[i * width + n]
         for j in range(i + 1, n):
-            total -= B[i * n + j] * x[j]
-        x[i] = total / B[i * n + i]
+            total -= B[i * width + j] * x[j]
+        x[i] = total / B[i * width + i]
     return True

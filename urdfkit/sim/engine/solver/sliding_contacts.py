@@ -16,6 +16,7 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.linear_systems import eliminate_and_solve
+from urdfkit.sim.engine.math.simd import LANES, load16, padded, store
 from urdfkit.sim.engine.solver.row_states import SLIDES
 
 REDUNDANT = 1e-9
@@ -42,8 +43,9 @@ def velocity_row(w: KernelWorld, rows: int, i: int) -> None:
         for j in range(rows):
             w.velocity[j] = first * w.A[i * rows + j] + second * w.A[(i + 1) * rows + j]
     else:
-        for j in range(rows):
-            w.velocity[j] = w.A[i * rows + j]
+        # What this writes beyond the rows is not used.
+        for j in range(0, rows, LANES):
+            store(w.velocity, j, load16(w.A, i * rows + j))
 
 
 @inlined
@@ -88,12 +90,13 @@ def regularised_newton_step(w: KernelWorld, rows: int, n: int, rest: Any, softne
         rest: the impulses from which the softness is measured.
         softness: relative to the diagonal of A.
     """
+    width = padded(n + 1)
     for a in range(n):
         i = w.index[a]
         w.y[a] = right_hand_side(w, rows, i)
-        equation(w, rows, n, a, a * n)
+        equation(w, rows, n, a, a * width)
         soft = softness * w.A[i * rows + i]
-        w.B[a * n + a] += soft
+        w.B[a * width + a] += soft
         if not is_slip_unknown(w, i):
             w.y[a] += soft * rest[i]
     if not eliminate_and_solve(n, w.B, w.y):
@@ -107,40 +110,46 @@ def regularised_newton_step(w: KernelWorld, rows: int, n: int, rest: Any, softne
 def find_redundant(w: KernelWorld, rows: int, n: int) -> None:
     """Mark the unknowns with redundant rows, and write the equations that determine their load into B.
 
-    The Gram matrix of the rows is factored (Cholesky), with inverses on the diagonal, and 0 for redundant rows.
+    The Gram matrix of the rows is factored (Cholesky), with inverses on the diagonal, and 0 for redundant rows. Its
+    factor is the upper triangle of B.
     """
-    B = w.B
+    # The diagonal before it is factored, then what a redundant row is of the others.
+    B, whole = w.B, w.row_stiffness
+    share = whole
+    width = padded(n + 1)
     for a in range(n):
-        i = w.index[a]
-        velocity_row(w, rows, i)
-        for b in range(a + 1):
+        velocity_row(w, rows, w.index[a])
+        for b in range(a, n):
             j = w.index[b]
-            total = w.velocity[j]
+            B[a * width + b] = w.velocity[j]
             if is_slip_unknown(w, j):
-                total = w.velocity[j] * w.slip[j + 1] - w.velocity[j + 1] * w.slip[j]
-                if a == b:
-                    total += w.slip[j - 1]
-            whole = total
-            for k in range(b):
-                total -= B[a * n + k] * B[b * n + k]
-            if a > b:
-                B[a * n + b] = total * B[b * n + b]
-            elif total > REDUNDANT * whole:
-                w.redundant[a] = 0
-                B[a * n + a] = 1.0 / math.sqrt(total)
-            else:
-                w.redundant[a] = 1
-                B[a * n + a] = 0.0
+                B[a * width + b] = w.velocity[j] * w.slip[j + 1] - w.velocity[j + 1] * w.slip[j]
+        if is_slip_unknown(w, w.index[a]):
+            B[a * width + a] += w.slip[w.index[a] - 1]
+        whole[a] = B[a * width + a]
+    for k in range(n):
+        pivot, inverse = B[k * width + k], 0.0
+        w.redundant[k] = 1
+        if pivot > REDUNDANT * whole[k]:
+            w.redundant[k] = 0
+            inverse = 1.0 / math.sqrt(pivot)
+            for first in range(k & -LANES, width, LANES):
+                row = inverse * load16(B, k * width + first)
+                store(B, k * width + first, row)
+                for i in range(k + 1, min(n, first + LANES)):
+                    at = i * width + first
+                    store(B, at, load16(B, at) - B[k * width + i] * row)
+        B[k * width + k] = inverse
     for a in range(n - 1, -1, -1):
         if w.redundant[a] == 1:
             for b in range(a - 1, -1, -1):
-                total = B[a * n + b]
+                total = B[b * width + a]
                 for k in range(b + 1, a):
-                    total -= B[k * n + b] * B[a * n + k]
-                B[a * n + b] = total * B[b * n + b]
+                    total -= B[b * width + k] * share[k]
+                share[b] = total * B[b * width + b]
             for b in range(n):
-                share = -B[a * n + b] if b < a else (1.0 if a == b else 0.0)
-                B[a * n + b] = share * w.A[w.index[b] * rows + w.index[b]]
+                part = -share[b] if b < a else (1.0 if a == b else 0.0)
+                B[a * width + b] = part * w.A[w.index[b] * rows + w.index[b]]
 
 
 @inlined
@@ -149,7 +158,7 @@ def equations(w: KernelWorld, rows: int, n: int) -> None:
     find_redundant(w, rows, n)
     for a in range(n):
         if w.redundant[a] == 0:
-            equation(w, rows, n, a, a * n)
+            equation(w, rows, n, a, a * padded(n + 1))
 
 
 @compiled
@@ -168,7 +177,7 @@ def newton_step(w: KernelWorld, rows: int, n: int, rest: Any) -> bool:
             w.y[a] = 0.0
             for b in range(n):
                 if not is_slip_unknown(w, w.index[b]):
-                    w.y[a] += w.B[a * n + b] * rest[w.index[b]]
+                    w.y[a] += w.B[a * padded(n + 1) + b] * rest[w.index[b]]
     if not eliminate_and_solve(n, w.B, w.y):
         return False
     contradiction = 0.0

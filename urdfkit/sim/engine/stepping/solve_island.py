@@ -7,11 +7,13 @@ from urdfkit.sim.engine.constraints.joint_servos import (
     NO_SERVO,
     SERVO_ATTEMPTS,
     SERVOS,
+    is_undamped,
     limited,
     overloaded,
     smooth_motion,
 )
 from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
+from urdfkit.sim.engine.dynamics.free_body_terms import has_factors
 from urdfkit.sim.engine.dynamics.mass_matrix import bias_forces, place, solve_forward
 from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
@@ -81,7 +83,10 @@ def solve_island(w: KernelWorld, root: int) -> int:
         tree = root
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            servos = max(servos, smooth_motion(w, first, beyond, dt, factored))
+            known = factored
+            if not factored and is_free_body(w, tree) and w.weightless[w.tree_body[tree]] == 0.0:
+                known = has_factors(w, w.tree_body[tree], is_undamped(w, first, beyond))
+            servos = max(servos, smooth_motion(w, first, beyond, dt, known))
             island_dofs += beyond - first
             rows = joint_rows(w, rows, tree, dofs, width, dt, False)
             tree = w.island_next[tree]
