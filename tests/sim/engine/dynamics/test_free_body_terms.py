@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfkit.sim.engine.dynamics.free_body_terms import free_body_terms
+from urdfkit.sim.engine.dynamics.free_body_terms import free_body_terms, has_factors
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, place, terms
 from urdfkit.sim.engine.interpreted_kernel import interpreted, views
 from urdfkit.sim.engine.simulation_memory import LETTERS, allocate
@@ -42,3 +42,21 @@ def test_they_are_those_of_any_tree(seed):
     interpreted(free_body_terms.python)(w, 0)
     for name in names:
         assert a[name] == pytest.approx(expected[name], rel=1e-12, abs=1e-12), name
+
+
+@pytest.mark.parametrize(("name", "entry"), [("mass", 0), ("centre", 2), ("tensor", 3)])
+def test_m_is_factored_again_when_what_it_is_computed_from_changes(name, entry):
+    a = body(np.random.default_rng(0))
+    w = views(a.floats, a.integers)
+    has = interpreted(has_factors.python)
+    assert [has(w, 0, True) for _ in range(3)] == [False, True, True]
+    a[name].reshape(-1)[entry] += 1e-9
+    assert [has(w, 0, True) for _ in range(2)] == [False, True]
+
+
+def test_m_is_factored_again_after_dampers():
+    a = body(np.random.default_rng(0))
+    w = views(a.floats, a.integers)
+    has = interpreted(has_factors.python)
+    assert [has(w, 0, undamped) for undamped in (True, True, False)] == [False, True, False]
+    assert [has(w, 0, True) for _ in range(2)] == [False, True]

@@ -113,7 +113,7 @@ def find_redundant(w: KernelWorld, rows: int, n: int) -> None:
     The Gram matrix of the rows is factored (Cholesky), with inverses on the diagonal, and 0 for redundant rows. Its
     factor is the upper triangle of B.
     """
-    # The diagonal before it is factored, then what a redundant row is of the others.
+    # The diagonal before it is factored; later, the coefficients of a redundant row.
     B, whole = w.B, w.row_stiffness
     share = whole
     width = padded(n + 1)

@@ -83,10 +83,10 @@ def solve_island(w: KernelWorld, root: int) -> int:
         tree = root
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            known = factored
+            kept = factored
             if not factored and is_free_body(w, tree) and w.weightless[w.tree_body[tree]] == 0.0:
-                known = has_factors(w, w.tree_body[tree], is_undamped(w, first, beyond))
-            servos = max(servos, smooth_motion(w, first, beyond, dt, known))
+                kept = has_factors(w, w.tree_body[tree], is_undamped(w, first, beyond))
+            servos = max(servos, smooth_motion(w, first, beyond, dt, kept))
             island_dofs += beyond - first
             rows = joint_rows(w, rows, tree, dofs, width, dt, False)
             tree = w.island_next[tree]
