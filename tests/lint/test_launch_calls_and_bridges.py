@@ -170,3 +170,59 @@ def generate_launch_description():
     for name, count in (("topic_name", 1), ("yaml_filename", 0)):
         write(cart / "launch/m.launch.py", text.replace("NAME", name))
         assert len(found(cart, "L126")) == count
+
+
+CONDITIONS = """<launch>
+  <arg name="gui" default="true"/>
+  <arg name="simulate" default="true"/>
+  <group unless="$(arg simulate)">
+    <node name="lidar" pkg="rplidar_ros" type="rplidarNode"/>
+  </group>
+  <node if="$(arg gui)" name="sliders" pkg="joint_state_publisher_gui" type="joint_state_publisher_gui"/>
+  <node unless="$(arg gui)" name="joints" pkg="joint_state_publisher" type="joint_state_publisher"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ('unless="$(arg gui)"', 'if="$(arg gui)"', 8, "both publishers of joint states start if `gui` is true"),
+        (
+            '<node if="$(arg gui)"',
+            '<node unless="$(arg gui)"',
+            7,
+            "this starts `joint_state_publisher_gui` if `gui` is false",
+        ),
+        ('unless="$(arg simulate)"', 'if="$(arg simulate)"', 4, "this starts a driver of the hardware if `simulate`"),
+    ],
+)
+def test_a_condition_that_starts_both_alternatives_is_reported(tmp_path, old, new, line, message):
+    cart = package(tmp_path / "cart", "catkin", "joint_state_publisher", "joint_state_publisher_gui", "rplidar_ros")
+    for text, expected in ((CONDITIONS.replace(old, new), [(line, message)]), (CONDITIONS, [])):
+        write(cart / "launch/cart.launch", text)
+        assert [(at, words[: len(message)]) for _, at, words in found(cart, "L127")] == expected
+
+
+def test_gazebo_under_two_opposite_conditions_always_starts(tmp_path):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "ros_gz_sim", "rviz2")
+    include = """IncludeLaunchDescription(
+        PathJoinSubstitution([FindPackageShare("ros_gz_sim"), "launch", "gz_sim.launch.py"]), condition={})"""
+    text = """from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    headless = LaunchConfiguration("headless")
+    return LaunchDescription([DeclareLaunchArgument("headless", default_value="false"), GroupAction([{}])])
+"""
+    node = '<node pkg="rviz2" exec="rviz2"><param name="use_sim_time" value="false"/></node>'
+    file = '<include file="$(find-pkg-share cart)/launch/sim.launch.py"/>'
+    write(cart / "launch/all.launch.xml", f"<launch>\n{file}\n{node}\n</launch>\n")
+    with_user, without = include.format("UnlessCondition(headless)"), include.format("IfCondition(headless)")
+    for listed, expected in ((f"{with_user}, {without}", [3]), (with_user, [])):
+        write(cart / "launch/sim.launch.py", text.replace("[{}]", f"[{listed}]"))
+        assert [line for _, line, _ in found(cart, "L121")] == expected

@@ -182,6 +182,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("C707", "undefined"), "robot", ("K965", "joint")),
     (("K965", ""), "robot", ("K978", "")),
     (("K968", "manager"), "robot", ("K980", "namespace")),
+    (("L127", ""), "robot", ("K980", "namespace")),
     (("K968", "manager"), "robot", ("L117", "namespace")),
     *((("K972", "build tool"), "robot", (code, kind)) for code, kind in _OF_OTHER_ROS),
     *((("K972", "build type"), "robot", (code, kind)) for code, kind in _OF_OTHER_ROS),

@@ -11,7 +11,10 @@ from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements, roots_
 from urdfkit.record import record
 
 _USE = r"\s*\$\((?:arg|var)\s+([\w.-]+)\s*\)\s*"
-_OPAQUE = r"OpaqueFunction\(|namespace(?!\w*\s*[=:]\s*(?:''|\"\"))|PushR|<push|<(?:group|node|include)\b[^<>]*\bns\s*="
+_OPAQUE = (
+    r"OpaqueFunction\(|namespace(?!\w*\s*[=:]\s*(?:''|\"\"))|PushR\w*\(|<push"
+    r"|<(?:group|node|include)\b[^<>]*\bns\s*="
+)
 """Matches launch files whose conditions are outside of the actions, or that start several robots."""
 
 _ACTIONS = ("GroupAction", "IncludeLaunchDescription", "LifecycleNode", "Node")
@@ -98,7 +101,8 @@ def _called(call: ast.Call, reader: LaunchReader) -> tuple[str, str]:
     if name_of(call.func) == "IncludeLaunchDescription":
         file = _assigned(call.args[0] if call.args else words.get("launch_description_source"), reader)
         inner = file.args[0] if isinstance(file, ast.Call) and file.args else file
-        path = reader.path(inner) if inner is not None else None
+        found = (reader.path(each) for each in (file, inner) if each is not None)
+        path = next((each for each in found if each is not None), None)
         return (path[0], path[1].strip("/")) if path is not None else ("", "")
     if name_of(call.func) not in ("Node", "LifecycleNode"):
         return "", ""

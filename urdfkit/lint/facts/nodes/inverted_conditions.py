@@ -18,7 +18,8 @@ from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
 from urdfkit.lint.facts.topics.node_topics import CAMERAS, topics_of
 from urdfkit.lint.model.model import Model
 
-_SIMULATED = r"(?:use_|is_|in_|run_)?(?:sim|simulation|simulated|gazebo|gz|ignition)(?:_mode|_time)?"
+_SIMULATED = r"(?:use_|is_|in_|run_)?(?:sim|simulate|simulation|simulated|gazebo|gz|ignition)(?:_mode|_time)?"
+_CONDITION = r"(?:If|Unless)Condition\b|\b(?:if|unless)(?=\s*=)"
 _ROBOT, _WORLD = "a driver of the hardware", "Gazebo"
 
 _OPTIONAL = frozenset(("bringup", "enable", "enabled", "launch", "load", "open", "run", "show", "start", "use", "with"))
@@ -46,7 +47,7 @@ _OTHERS = frozenset(
 def inverted_conditions(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
     """Yield launch file, place and message of each action whose condition is inverted."""
     seen = set[tuple[str, int]]()
-    for source, place, message in (*_in_simulation(model), *_by_name(model)):
+    for source, place, message in (*_in_simulation(model), *_by_name(model), *_both_sliders(model)):
         if (source.file, place[0]) not in seen:
             seen.add((source.file, place[0]))
             yield source, place, message
@@ -63,6 +64,24 @@ def _by_name(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
                 word = "true" if each.value else "false"
                 message = f"this starts `{subject}` if `{each.argument}` is {word}; the condition is inverted"
                 yield source, _condition(source, each.place), message
+
+
+_SLIDERS = {"joint_state_publisher_gui": True, "joint_state_publisher": False}
+"""Program → whether it has a user interface; a robot needs one of them."""
+
+
+def _both_sliders(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
+    """Yield the second publisher of joint states that starts under the condition of the first one."""
+    for file, source in model.related_files.items():
+        found = list(conditional_actions(source)) if file.endswith(LAUNCH) and "joint_state_pub" in source.text else []
+        own = [(each, each.subjects[0][1]) for each in found if len(each.subjects) == 1]
+        own = [(each, program) for each, program in own if program in _SLIDERS]
+        if len(own) == 2 and own[0][1] != own[1][1] and len({(each.argument, each.value) for each, _ in own}) == 1:
+            has_interface = not own[0][0].value  # `gui` must start the publisher with the sliders
+            wrong = next((each for each, program in own if _SLIDERS[program] is has_interface), own[1][0])
+            word = "true" if wrong.value else "false"
+            message = f"both publishers of joint states start if `{wrong.argument}` is {word}; invert this condition"
+            yield source, _condition(source, wrong.place), message
 
 
 def _named_by(action: ConditionalAction) -> tuple[str, bool]:
@@ -90,7 +109,8 @@ def _in_simulation(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]
                 if what == (_ROBOT if value else _WORLD):
                     word = "true" if value else "false"
                     message = f"this starts {what} if `{name}` is {word}; the condition is inverted"
-                    yield source, _condition(source, start.place), message
+                    is_own = re.search(_CONDITION, source.text[slice(*start.place)]) is not None
+                    yield source, _condition(source, start.place if is_own else start.group or start.place), message
         for action in conditional_actions(source) if file.endswith(LAUNCH) else ():
             if re.fullmatch(_SIMULATED, action.argument):
                 parts = [
@@ -106,7 +126,7 @@ def _in_simulation(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]
 
 def _condition(source: Source, place: tuple[int, int]) -> tuple[int, int]:
     """Return the place of the condition of an action."""
-    at = re.search(r"(?:If|Unless)Condition\b|\b(?:if|unless)(?=\s*=)", source.text[slice(*place)])
+    at = re.search(_CONDITION, source.text[slice(*place)])
     return (place[0] + at.start(), place[0] + at.end()) if at is not None else place
 
 

@@ -16,6 +16,7 @@ from urdfkit.lint.facts.launch.receivers import actions_at, receiver
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.navigation.tables import NODES
+from urdfkit.lint.facts.nodes.conditional_starts import ConditionalAction, conditional_actions
 from urdfkit.lint.facts.nodes.names import name_of_node
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.model.model import Model
@@ -212,6 +213,9 @@ def _message() -> str:
 
 def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:
     """Return whether a launch file always starts Gazebo, itself or by its includes."""
+    values = {(each.argument, each.value) for each in conditional_actions(source) if _is_gazebo(each)}
+    if any((name, not value) in values for name, value in values):
+        return True  # under two conditions, one of which always holds
     if re.search(_SCOPES, source.text):
         return False
     for call in actions_of(source).includes:
@@ -222,6 +226,10 @@ def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:
         if call.package in GAZEBO or (included is not None and _starts_gazebo(included.source, model, depth + 1)):
             return True
     return False
+
+
+def _is_gazebo(action: ConditionalAction) -> bool:
+    return any(package in GAZEBO and "/" in path for package, path in action.subjects)
 
 
 def _is_timed(node: LaunchedNode) -> bool:
