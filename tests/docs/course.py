@@ -36,7 +36,7 @@ PAGES = [
 ]
 """Pages with files of their own."""
 
-SERVES = re.compile(r"urdfkit (view|sim teleop|replay)\b(?!.*--(image|video))")
+SERVES = re.compile(r"urdfkit (view|sim teleop|replay)\b(?!.*--(image|video|html))")
 REFUSED = re.compile(r"urdfkit: \S+:\d+:\d+: ")
 WAITS = r"^(urdfkit: )?(warning: )?(compiling the |waiting for the graphics driver|the simulation is starting: ).*\n"
 VARIES = ((r"[\d,.]+ × real time", "… × real time"), (r"\b\d+(\.\d+)? m?s \(CPU\)", "… (CPU)"), (r"-(?=0\.0+\b)", ""))

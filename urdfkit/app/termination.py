@@ -36,8 +36,8 @@ def ended_by_signals() -> Iterator[None]:
     """Run a block that SIGTERM and SIGHUP interrupt as Ctrl-C does, so that unfinished work is undone.
 
     A signal that was ignored before stays ignored, such as SIGHUP under ``nohup``. A signal during an import takes
-    effect after it, since packages import optional ones inside ``except BaseException``. A signal during a finalizer
-    or a callback of a weak reference, where Python ignores exceptions, is raised again.
+    effect after it, since packages import optional packages inside ``except BaseException``. A signal during a
+    finalizer or a callback of a weak reference, where Python ignores exceptions, is raised again.
 
     Raises:
         SystemExit: 128 plus the number of the signal, as shells report it.

@@ -48,7 +48,7 @@ class CallQueue:
         self._bytes = self.dropped = 0
 
     def add(self, call: Callable[[], None], size: int = 0) -> bool:
-        """Add a call, from any thread; return whether there was room for it and the bytes of its message."""
+        """Add a call, from any thread; return whether the queue had space for it and for the bytes of its message."""
         with self._lock:
             if len(self._calls) >= CAPACITY or (self._calls and self._bytes + size > MOST_BYTES):
                 self.dropped += 1

@@ -90,7 +90,7 @@ def renderer_of(
 
 
 class RendererBySize:
-    """Renders small images by ray casting and large ones with a driver, which is started for the first of them.
+    """Renders small images by ray casting and large images with a driver, which is started for the first large image.
 
     Args:
         rays: renderer of small images.

@@ -64,8 +64,8 @@ def test_names_are_a_mapping_all_the_same(town: Simulator) -> None:
         (lambda: Simulator("simpleton", spawn=(0, 0, 1)), r"`spawn` is \(0, 0, 1\); it must be a Spawn"),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", spawn=Spawn(x="here")), r"the start pose is \('here', "),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", spawn=Spawn(twist=3)), r"the initial velocity is 3; "),  # type: ignore[arg-type]
-        (lambda: Simulator("simpleton", world="xyz.world"), r"cannot read xyz\.world: .*cylinders, empty"),
-        (lambda: Simulator("simpleton", world="huse.sdf"), r"cannot read huse\.sdf: .*; did you mean `house`\?"),
+        (lambda: Simulator("simpleton", world="xyz.world"), r"no such file: xyz\.world .*cylinders, empty"),
+        (lambda: Simulator("simpleton", world="huse.sdf"), r"no such file: huse\.sdf; did you mean `house`\?"),
     ],
 )
 def test_an_argument_that_makes_no_sense(ask: Callable[[], Any], message: str) -> None:
@@ -104,3 +104,10 @@ def test_a_limit_is_reported_with_its_unit() -> None:
         arm.motors.hold("elbow_pitch_joint", 9.0)
     with pytest.raises(SimulationError, match=r"cannot move to 9 m: its limits are -?[\d.]+ … [\d.]+ m$"):
         arm.motors.hold("finger_joint1", 9.0)
+
+
+@pytest.mark.parametrize("value", [[0.0, 0.0], 1.0, None])
+@pytest.mark.parametrize("name", ["q", "v"])
+def test_an_assignment_to_the_state_names_where_to_set_it(town: Simulator, name: str, value: Any) -> None:
+    with pytest.raises(SimulationError, match=rf"^state\.{name} is read-only: set .* with Simulator\(…, spawn=Spawn\("):
+        setattr(town.state, name, value)

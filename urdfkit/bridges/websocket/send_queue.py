@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from urdfkit.bridges.published_message import PublishedMessage
 
 Frame = str | bytes | list[bytes | memoryview]
-"""A text, or binary content, which may have several parts so that long ones are not copied."""
+"""A text, or binary content, which may have several parts so that long contents are not copied."""
 Encode = Callable[[PublishedMessage], list[Frame]]
 
 MAX_BYTES = 8 * 1024 * 1024

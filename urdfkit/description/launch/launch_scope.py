@@ -17,7 +17,7 @@ UNKNOWN = "\0"
 """Character that stands for a computed part of a text."""
 
 MAX_TEXT = 10_000
-"""Maximum length of an evaluated text; longer texts are computed ones for the reader."""
+"""Maximum length of an evaluated text; longer texts count as computed."""
 
 _MAX_DEPTH = 8
 _MAX_FILES = 100

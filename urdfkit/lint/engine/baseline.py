@@ -40,7 +40,7 @@ def read(path: Path) -> Counter[Key]:
         rows = [(str(row["file"]), str(row["code"]), str(row["message"])) for row in written["findings"]]
         counts = [int(row.get("count", 1)) for row in written["findings"]]
     except FileNotFoundError as error:
-        raise ResourceError(f"--baseline: {missing_path(path)}; --write-baseline creates a baseline") from error
+        raise ResourceError(f"--baseline: {missing_path(path)}; create one with --write-baseline") from error
     except OSError as error:
         raise ResourceError(
             f"cannot read the baseline {path}: {error.strerror}; create one with --write-baseline"

@@ -181,7 +181,7 @@ def _written(finding: Finding, model: Model) -> Span | None:
 
 
 def _only_call(finding: Finding, calls: set[Expansion], model: Model) -> Span | None:
-    """Return the one macro call whose arguments give a wrong inertia, while the macro gives right ones elsewhere.
+    """Return the one macro call whose arguments give a wrong inertia, while the other calls give correct inertias.
 
     Where the macro writes numbers instead of expressions, no call is wrong.
     """

@@ -25,7 +25,7 @@ ELEMENTS = {
 _EMAIL = r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}"
 _PARTS_OF_DEPEND = frozenset(("build_depend", "build_export_depend", "exec_depend"))
 _MAX_MISSING = 2
-"""Number of missing elements up to which a package.xml is meant to be built."""
+"""Largest number of missing elements of a package.xml whose package counts as buildable."""
 
 
 @record(eq=False)

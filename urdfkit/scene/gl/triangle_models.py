@@ -29,7 +29,7 @@ class TriangleModel:
     """Triangles that are drawn with one call for all shapes that use them.
 
     Attributes:
-        vertices: three consecutive ones per triangle, counter-clockwise from outside; shape (n, `VERTEX`), float32.
+        vertices: three consecutive vertices per triangle, counter-clockwise from outside; shape (n, `VERTEX`), float32.
         shapes: indices of the shapes in the table.
         scale: scale of the model in each shape; shape (shapes, 3).
         texture: index of the texture, -1 for none.

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from urdfkit.errors import UnknownNameError, did_you_mean
+from urdfkit.errors import SimulationError, UnknownNameError, did_you_mean
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine import Contact, Engine
@@ -14,6 +14,11 @@ from urdfkit.sim.state.poses_and_energy import energy_of, in_the_world, pose_and
 
 MOST_SHOWN = 6
 """Joints in the `repr` of a state."""
+_SET_POSITIONS = (
+    "state.q is read-only: set positions with Simulator(…, spawn=Spawn(joints=…)) "
+    "at the start, or with simulator.world.robots[NAME].place_joints(…)"
+)
+_SET_VELOCITIES = "state.v is read-only: set velocities with Simulator(…, spawn=Spawn(twist=…, velocities=…))"
 
 
 class State:
@@ -146,10 +151,18 @@ class State:
         q.flags.writeable = False
         return q
 
+    @q.setter
+    def q(self, value: object) -> None:
+        raise SimulationError(_SET_POSITIONS)
+
     @property
     def v(self) -> Array:
         """Velocity [rad/s] or [m/s], read-only; shape (nv,). That of a floating base is in its axes, linear first."""
         return self._articulation.v
+
+    @v.setter
+    def v(self, value: object) -> None:
+        raise SimulationError(_SET_VELOCITIES)
 
     @property
     def tau(self) -> Array:

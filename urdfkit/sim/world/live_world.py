@@ -216,7 +216,7 @@ class LiveWorld:
             self.removed = (*self.removed, name)
 
     def install(self, setup: Setup) -> None:
-        """Install the plugins of all robots, and from now on those of spawned ones."""
+        """Install the plugins of all robots, and from now on those of spawned robots."""
         self._setup = setup
         for robot in self.builder.robot_list:
             self._install(robot)

@@ -30,7 +30,7 @@ class EngineLayout:
 
 
 def transfer_state(before: Engine, old: EngineLayout, after: Engine, new: EngineLayout) -> None:
-    """Copy the state of one engine to another, for trees and shapes of both. New ones keep their initial poses.
+    """Copy the state of one engine to another, for trees and shapes of both. Others keep their initial poses.
 
     Args:
         before: the previous engine.

@@ -1,4 +1,4 @@
-"""Repair calls that do not fit their macro: which macro is meant, and which parameters are missing or unknown."""
+"""Repair calls of misspelt macros, and calls with missing or unknown parameters."""
 
 from collections.abc import Iterable, Iterator
 

@@ -1,4 +1,4 @@
-"""Executables of packages: of those next to the robot's package from their build files, and of released ones."""
+"""Executables of packages: of those next to the robot's package from their build files, and of released packages."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ laser_min_range laser_model_type max_beams max_particles min_particles recovery_
 resample_interval robot_model_type save_pose_rate sigma_hit tf_broadcast transform_tolerance update_min_a update_min_d
 scan_topic map_topic set_initial_pose always_reset_initial_pose first_map_only;
 """
-"""Names of nodes: parameters; similar names are misspelt ones, other names are ignored."""
+"""Names of nodes: parameters; similar names count as misspelt, other names are ignored."""
 
 _OF_PACKAGES = """
 ros_gz_bridge: config_file expand_gz_topic_names override_timestamps_with_wall_time subscription_heartbeat bridge_names

@@ -179,7 +179,7 @@ def wrong_import(module: str, name: str) -> str | None:
 
 
 def wrong_keyword(kind: str, word: str) -> str | None:
-    """Return the keyword of a class that a word misspells; None for the right words and for unknown ones."""
+    """Return the keyword of a class that a word misspells; None for correct and for unknown words."""
     from urdfkit.lint.fix_builders import nearest
 
     valid = _KEYWORDS.get(kind, "").split()

@@ -1,4 +1,4 @@
-"""Methods of ``MoveItConfigsBuilder`` that launch files call: misspelt ones, and files that do not exist.
+"""Methods of ``MoveItConfigsBuilder`` that launch files call: misspelt methods, and files that do not exist.
 
 Source: moveit_configs_utils, moveit_configs_builder.py (Humble to Rolling): a file is relative to the MoveIt package; a
 planning pipeline has the file ``config/<pipeline>_planning.yaml``, or one of moveit_configs_utils.

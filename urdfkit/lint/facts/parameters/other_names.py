@@ -7,7 +7,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node
 
 
 def renamed_in(owner: str, group: Node, names: Mapping[str, str]) -> Iterator[tuple[Node, str]]:
-    """Yield the first parameter of a group with a name of another release, and a message with the further ones.
+    """Yield the first parameter of a group with a name of another release, and a message that lists the others.
 
     Args:
         owner: name of the node, plugin or controller that reads the group.

@@ -37,7 +37,7 @@ phidgets_spatial phidgets_gyroscope||imu/data_raw:Imu
 phidgets_imu||imu/data_raw:Imu
 xsens_driver bno055 microstrain_inertial_driver um7||imu/data:Imu
 """
-"""Packages, with the programs if only some of them are meant, then topics that they read and those they publish.
+"""Package, or package and some of its programs → the topics that they subscribe to, and the topics that they publish.
 
 Those of velocity commands are in `_COMMANDS`.
 """
@@ -75,7 +75,7 @@ class NodeTopics:
 
 @record(eq=False)
 class CommandTopics:
-    """Velocity commands of a node: its flag for stamped ones, and the topics or parameters of these commands.
+    """Velocity commands of a node: its flag for stamped commands, and the topics or parameters of these commands.
 
     The texts are empty without a flag or topic.
     """

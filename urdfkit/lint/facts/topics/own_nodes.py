@@ -77,7 +77,7 @@ def own_subscriptions(model: Model, package: str) -> dict[str, str]:
 
 
 def _in_python(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | None, str | None]]:
-    """Yield type and topic of each call of functions; None for computed ones, and a type None for a syntax error."""
+    """Yield type and topic of each call of functions; None for a computed name, and a type None for a syntax error."""
     tree = python_tree(text)
     if tree is None:
         yield None, None
@@ -108,7 +108,7 @@ def _in_python(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | No
 
 
 def _in_cpp(text: str, functions: tuple[str, ...]) -> Iterator[tuple[str | None, str | None]]:
-    """Yield type and topic of each call of functions; None for computed ones."""
+    """Yield type and topic of each call of functions; None for a computed name."""
     used = {at[1] for at in re.finditer(r"\busing\s{1,9}[\w:]{1,200}?::(\w{1,80})\s{0,9};", text)}
     for at in re.finditer(_IN_CPP.format("|".join(functions)), text):
         kind = (at[1] or "").strip()

@@ -154,7 +154,7 @@ def _unknown(name: str, above: str, version: int) -> str | None:
 
 
 def _meant(attribute: Attribute, tag: Tag, valid: tuple[str, ...], version: int) -> str | None:
-    """Return the attribute that was meant by an unknown one, empty if none is similar; None for known attributes."""
+    """Return the attribute that an unknown attribute misspells, empty if none is similar; None for valid attributes."""
     name = attribute.name
     if name in (*valid, "if", "unless") or ":" in name or name == "xmlns":
         return None

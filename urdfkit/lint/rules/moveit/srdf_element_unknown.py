@@ -9,7 +9,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _TYPES = ("fixed", "floating", "planar")
 _REASONS = ("Never", "Default", "Adjacent", "Always", "User")
-"""Reasons of the MoveIt Setup Assistant; it takes other ones for ``User``."""
+"""Reasons of the MoveIt Setup Assistant; it reads other reasons as ``User``."""
 
 
 class SrdfElementUnknown(RobotRule):

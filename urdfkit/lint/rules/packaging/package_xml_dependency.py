@@ -342,6 +342,6 @@ def _disabled(manifest: str) -> set[str]:
 
 
 def _dependencies(manifest: str, near: Iterable[str]) -> set[str]:
-    """Return the dependencies, and the packages that misspelt ones stand for; manifest-invalid reports these."""
+    """Return the dependencies, and the packages that misspelt dependencies mean; manifest-invalid reports these."""
     found, version = dependencies_in(manifest), 2 if ">ament" in manifest and ">catkin" not in manifest else 0
     return found | {meant for name in found if (meant := misspelling_of(name, near, version)) is not None}

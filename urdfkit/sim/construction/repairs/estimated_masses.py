@@ -69,7 +69,7 @@ def _is_negative(link: Link) -> bool:
 
 
 def _estimated(link: Link, volume: Moments, density: float) -> Inertial:
-    """Return the inertial of a link with the missing ones of mass, centre of mass and inertia added."""
+    """Return the inertial of a link, with an estimate of each missing quantity: mass, centre of mass or inertia."""
     written = link.inertial
     element = link.element if written is None else written.element
     mass = written.mass if written is not None and written.mass else density * volume.volume
