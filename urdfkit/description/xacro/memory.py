@@ -274,7 +274,7 @@ def _same(one: str, other: str) -> int:
 
 
 def adopted(new: Element, old: Element) -> Element:
-    """Return the old element if the new element is equal, else the new element with the equal children of the old one."""
+    """Return the old element if the new element is equal, else the new element with equal children of the old."""
     if len(new.children) != len(old.children):
         return new
     is_same = True

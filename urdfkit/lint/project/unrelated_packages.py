@@ -14,7 +14,7 @@ from urdfkit.description.packages.related_files import (
 
 
 def unrelated_packages(folder: Path, robots: Iterable[Path]) -> list[Path]:
-    """Return the packages in a folder whose files no robot's check reads, sorted.
+    """Return the packages in a folder without files that the check of a robot reads, sorted.
 
     Args:
         folder: the folder.

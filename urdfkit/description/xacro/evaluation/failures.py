@@ -46,7 +46,7 @@ _ELSEWHERE = {
 
 
 class Failure(Exception):  # noqa: N818 - a fault of the file, reported as such
-    """Something in a file cannot be expanded.
+    """An element or expression of a file cannot be expanded.
 
     Args:
         kind: of the fault.

@@ -177,7 +177,7 @@ def _is_defined(word: Named, name: str, model: Model) -> bool:
 
 
 def _meant(name: str, links: Iterable[str]) -> str | None:
-    """Return the link that a parent frame stands for: a misspelt one, or the only one with one more word."""
+    """Return the link that a parent frame intends: the link with a similar name, or the only one with one more word."""
     slips = [link for link in links if is_slip(name, link)]
     longer = [link for link in links if link.startswith(f"{name}_") or link.endswith(f"_{name}")]
     return next((group[0] for group in (slips, longer) if len(group) == 1), None)

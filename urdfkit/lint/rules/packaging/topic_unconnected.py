@@ -48,6 +48,7 @@ class TopicUnconnected(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
         from urdfkit.lint.facts.connections.messages_in_code import unfinished_goals
+        from urdfkit.lint.facts.connections.misnamed_remappings import misnamed_remappings
         from urdfkit.lint.facts.connections.namespaces import separated_nodes
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.controller_topics import private_readers, wrong_inputs
@@ -57,7 +58,7 @@ class TopicUnconnected(RobotRule):
         from urdfkit.lint.facts.topics.other_sides import other_side
         from urdfkit.lint.facts.topics.own_pairs import unpaired
         from urdfkit.lint.facts.topics.own_remappings import misnamed_in_code
-        from urdfkit.lint.facts.topics.velocity_commands import misnamed_remappings, unfed_mux_topics, unread_commands
+        from urdfkit.lint.facts.topics.velocity_commands import unfed_mux_topics, unread_commands
 
         loops = list(self_readers(model))
         # Otherwise the commands that the loop leaves without a reader are its consequence.
