@@ -131,7 +131,7 @@ def test_packages_inside_a_package_get_a_word(place, capsys, ros):
     assert "inside" not in capsys.readouterr().err
 
 
-def test_packages_beside_src_get_a_word(place, capsys):
+def test_a_new_package_next_to_src_prints_a_note(place, capsys):
     (place / "src").mkdir()
     assert main(["new", "package", "scout_bringup", "--yes"]) == 0
     assert "use --into src" in capsys.readouterr().err

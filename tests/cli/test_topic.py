@@ -97,7 +97,7 @@ def test_echo_prints_messages_as_rostopic_does(topic) -> None:
 
 
 @pytest.mark.slow
-def test_what_was_published_once_for_all_who_come_is_echoed(topic) -> None:
+def test_echo_prints_a_latched_message(topic) -> None:
     (joint, *_) = json.loads(topic("echo", "/tf_static", "--once", "--json"))["transforms"]
     assert joint["header"]["frame_id"] == "base_footprint"
 
@@ -159,7 +159,7 @@ def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
         (["lst"], "did you mean `list`?"),
     ],
 )
-def test_what_is_wrong_is_one_line_and_exit_2(topic, words: list[str], expected: str) -> None:
+def test_wrong_arguments_of_topic_are_one_line_and_exit_2(topic, words: list[str], expected: str) -> None:
     assert expected in topic(*words, code=2)
 
 

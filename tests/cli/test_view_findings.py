@@ -105,13 +105,13 @@ def test_a_finding_in_the_text_lists_its_links_and_joints(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("number", [0, -1, 99, 10**9])
-def test_a_number_that_was_never_given_is_refused(robot: Path, number: int) -> None:
+def test_an_unknown_number_of_a_fix_is_rejected(robot: Path, number: int) -> None:
     findings, _ = look(robot)
     with pytest.raises(UsageError, match="outdated"):
         findings.apply_fix(number)
 
 
-def test_a_number_of_an_earlier_look_is_refused(robot: Path) -> None:
+def test_the_number_of_a_fix_from_an_earlier_check_is_rejected(robot: Path) -> None:
     findings, rows = look(robot)
     findings.lint()
     with pytest.raises(UsageError, match="outdated"):

@@ -42,7 +42,7 @@ def test_products_and_inverses() -> None:
     assert matrix(invert(one)) == pytest.approx(np.linalg.inv(matrix(one)))
 
 
-def test_origins_and_turns() -> None:
+def test_placements_equal_those_of_pinocchio() -> None:
     rpy, xyz = (0.3, -0.7, 2.0), (1.0, 2.0, 3.0)
     placed = matrix(placement_of(Pose(xyz, rpy)))
     assert placed[:3, :3] == pytest.approx(pinocchio.rpy.rpyToMatrix(*rpy))

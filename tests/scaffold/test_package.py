@@ -69,7 +69,7 @@ def test_it_says_what_it_needs_and_lints_clean(workspace, kind, ros):
         (["--ros", "jazy"], "did you mean `jazzy`?"),
     ],
 )
-def test_typos_are_answered(workspace, capsys, options, says):
+def test_misspelt_options_of_new_package_name_the_nearest(workspace, capsys, options, says):
     assert new("scout", *options) == 2
     assert says in capsys.readouterr().err
     assert list((workspace / "src").iterdir()) == []

@@ -72,7 +72,7 @@ def test_an_implausible_inertia_does_not_count(tmp_path: Path) -> None:
     assert placeholder(shown(tmp_path, links)[0]).geometry.size == pytest.approx((0.26, 0.06, 0.06))
 
 
-def test_a_link_without_anything_reaches_to_its_child_joints(tmp_path: Path) -> None:
+def test_the_placeholder_of_a_link_without_shapes_reaches_its_child_joints(tmp_path: Path) -> None:
     links = f'<link name="a">{GONE}</link><link name="b">{GONE}</link><link name="c"/>'
     scene, _ = shown(tmp_path, links + joint("b", "0 0 0.4") + joint("c", "0.2 0 0.4"))
     found = placeholder(scene)

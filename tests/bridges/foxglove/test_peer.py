@@ -222,7 +222,7 @@ def test_a_wrong_message_is_one_line_and_the_connection_stays(greeted, reported,
 
 
 @pytest.mark.parametrize("content", [b"", b"\x00", b"\x00\x01\x00\x00" + b"\xff" * 7, b"\x09\x09\x09\x09"])
-def test_cdr_that_is_cut_off_is_one_line(greeted, simulated, reported, content: bytes) -> None:
+def test_a_truncated_cdr_message_is_reported_in_one_line(greeted, simulated, reported, content: bytes) -> None:
     greeted.send(op="advertise", channels=[{"id": 3, "topic": "/cmd_vel", "encoding": "cdr", "schemaName": TWIST}])
     greeted.line.send_binary(struct.pack("<BI", 1, 3) + content)
     simulated.until(lambda: reported)

@@ -126,7 +126,7 @@ def test_robots_we_ship() -> None:
     assert robots_dir() in Packages(environment={}).find("simpleton_description").parents
 
 
-def test_what_is_given_comes_first(package: Package, write: Write) -> None:
+def test_folders_of_the_caller_take_precedence_over_the_workspace(package: Package, write: Write) -> None:
     package("ws/src/p", "p")
     given = package("given/p", "p")
     assert Packages(["given"], near="ws/src/p/r.xacro", environment={}).find("p") == given

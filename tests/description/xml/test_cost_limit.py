@@ -50,7 +50,7 @@ def test_lint_reports_one_finding_with_the_rule_and_the_element(file, capsys) ->
     )
 
 
-def test_the_language_server_reports_it_too(file) -> None:
+def test_the_language_server_reports_the_time_limit(file) -> None:
     project = Project(Options(time_limit=0.3))
     project.set_text(file, ROBOT)
     (finding,) = project.findings(file)[file]

@@ -308,7 +308,7 @@ def test_a_robot_whose_first_line_is_gone_is_still_one(tmp_path):
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
 
-def test_of_two_files_that_are_no_xml_both_are_reported(tmp_path):
+def test_each_of_two_malformed_files_is_reported(tmp_path):
     include = '<xacro:include filename="wheel.xacro"/>'
     (tmp_path / "r.urdf.xacro").write_text(f'<robot name="r" {XACRO}>\n<link name="a">\n{include}\n</robot>')
     wheel = tmp_path / "wheel.xacro"

@@ -379,7 +379,7 @@ HARDWARE = """<robot name='arm' xmlns:xacro='http://www.ros.org/wiki/xacro'>
         ("<command_interface name='velocity'/>", "", False),
     ],
 )
-def test_interfaces_that_may_come_from_elsewhere_are_let_pass(tmp_path, interfaces, other, is_found):
+def test_interfaces_that_other_files_may_provide_are_not_reported(tmp_path, interfaces, other, is_found):
     (tmp_path / "package.xml").write_text("<package format='3'><name>arm</name><version>1.0.0</version></package>")
     (tmp_path / "arm.urdf.xacro").write_text(HARDWARE.format(interfaces))
     if other:

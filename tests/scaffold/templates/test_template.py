@@ -36,7 +36,7 @@ def test_answers_are_checked_and_completed(small_template):
         ({"name": "box", "colur": "red"}, "no question `colur`; did you mean `colour`?"),
     ],
 )
-def test_wrong_answers(small_template, given, message):
+def test_invalid_answers_to_the_questions_of_a_template_are_rejected(small_template, given, message):
     with pytest.raises(UsageError, match=message):
         load_template(small_template).answers(given)
 

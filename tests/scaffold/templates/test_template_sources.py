@@ -58,7 +58,7 @@ def test_in_a_folder(small_template, monkeypatch):
         ("template/all", r"--template template/all: it contains no template\.toml"),
     ],
 )
-def test_where_there_is_none(small_template, monkeypatch, place, message):
+def test_a_folder_without_a_template_is_rejected(small_template, monkeypatch, place, message):
     monkeypatch.chdir(small_template.parent)
     with pytest.raises(ResourceError, match=f"^{message}"):
         template_at(place)

@@ -143,7 +143,7 @@ def test_an_outcome_that_only_had_better_be_different_is_made_and_told(template,
     assert (place / "box/src/box.txt").read_text().startswith("box is 2 m")
 
 
-def test_what_was_put_beside_and_edited_stays(template, place):
+def test_update_keeps_added_and_edited_files(template, place):
     (place / "box/src/box.txt").write_text("mine\n")
     beside = place / "box/src/box.txt.new"
     for size in ("2", "3"):  # nobody has edited it

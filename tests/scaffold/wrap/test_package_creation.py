@@ -302,7 +302,7 @@ def test_it_has_what_new_robots_have(export, ros):
         assert "TESTING)" in (package / "CMakeLists.txt").read_text()
 
 
-def test_what_lies_beside_stays(export, capsys):
+def test_import_keeps_the_other_files_of_its_output_folder(export, capsys):
     src = export.parent / "src"
     src.mkdir()
     (src / "README.md").write_text("mine")

@@ -162,7 +162,7 @@ def test_missing_peers_are_named_and_left_out(capsys: Capture, monkeypatch: pyte
         )
 
 
-def test_progress_is_told_beside_the_results_unless_quiet(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_progress_is_printed_on_standard_error_unless_quiet(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     without_peers(monkeypatch)
     assert main(["--scene", "diff-drive", *QUICK]) == 0
     out, err = capsys.readouterr()
@@ -210,7 +210,7 @@ def test_mistakes_are_reported_with_the_nearest_right_name(
     assert reported in err.splitlines()[-1]
 
 
-def test_every_figure_has_its_target_and_its_answer_beside_it() -> None:
+def test_the_table_shows_each_measurement_with_its_target_and_result() -> None:
     text = table(example(), color="never")
     ours, mujoco, pybullet = (next(line for line in text.splitlines() if label in line) for label in LABELS)
     assert "405k" in ours

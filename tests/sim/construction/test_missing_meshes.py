@@ -111,7 +111,7 @@ SDF_BOX = collision("box", "<box><size>1 1 1</size></box>")
 
 @pytest.mark.parametrize("static", [True, False])
 @pytest.mark.parametrize(("mesh", "reported"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
-def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, reported: str, static: bool) -> None:
+def test_an_unreadable_mesh_of_a_world_model_is_ignored(tmp_path: Path, mesh: str, reported: str, static: bool) -> None:
     robot = written(tmp_path, BOX)
     world = world_with(tmp_path, collision("hull", sdf_mesh(mesh)) + SDF_BOX, static=static)
     notes: list[str] = []

@@ -289,7 +289,7 @@ def test_divergence_names_the_joint_and_the_time(engine_of):
         engine.step(5)
 
 
-def test_no_ground_no_contact(engine_of):
+def test_a_world_without_ground_has_no_contacts(engine_of):
     engine = engine_of("box", ground=None)
     at_height(engine, 0.05)
     engine.step(100)

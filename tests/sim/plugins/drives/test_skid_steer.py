@@ -193,7 +193,7 @@ def test_namespace_and_transform(make: Make) -> None:
     assert links[-1].child_frame_id == "base_footprint"
 
 
-def test_sides_were_never_swapped(make: Make) -> None:
+def test_the_sides_of_the_skid_steer_drive_are_not_swapped_in_indigo(make: Make) -> None:
     simulator = make(ros_distro="indigo")
     assert settled_turn(simulator, 0.5) > 0.2
 

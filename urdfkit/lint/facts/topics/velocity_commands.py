@@ -1,4 +1,4 @@
-"""Topics of velocity commands: those that no node reads, and inputs of twist_mux on which no node publishes.
+"""Topics of velocity commands: topics that no node reads, and inputs of twist_mux on which no node publishes.
 
 Sources: diff_drive_controller, mecanum_drive_controller, tricycle_controller and steering_controllers_library (README
 and source files), Noetic to Rolling.

@@ -151,7 +151,7 @@ class SrdfStateInvalid(RobotRule):
                 yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity)
 
     def _exchanged(self, root: Element, model: Model) -> Iterator[tuple[str, tuple[Element, str]]]:
-        """Yield each group with a joint, and with its counterpart, for which all states have a value instead."""
+        """Yield each group with a joint whose mirrored joint has a value in all states of the group instead."""
         from urdfkit.lint.facts.twins import mirrored
 
         for group in root.find_all("group"):

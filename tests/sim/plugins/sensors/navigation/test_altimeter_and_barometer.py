@@ -186,7 +186,7 @@ def test_hectors_baro_tells_height_and_pressure(drone) -> None:
     assert message.qnh == 1013.25
 
 
-def test_hectors_imu_feels_gravity_and_errs_as_told(drone) -> None:
+def test_the_imu_of_hector_measures_gravity_with_the_configured_errors(drone) -> None:
     inside = (
         "<updateRate>100</updateRate><accelOffset>0.5</accelOffset><rateGaussianNoise>0.1 0.2 0.3</rateGaussianNoise>"
     )
