@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import nodes
+from urdfkit.lint import lint
+from urdfkit.lint.facts.control.parameter_values import value_defects
+from urdfkit.lint.facts.control.yaml_tree import documents, nodes
 from urdfkit.lint.facts.navigation.defects import navigation_defects
-from urdfkit.lint.facts.navigation.sections import outside_parameters
-from urdfkit.lint.facts.parameters.ranges import out_of_range
+from urdfkit.lint.facts.navigation.sections import costmaps_not_nested, nodes_without_parameters, outside_parameters
+from urdfkit.lint.facts.parameters.ranges import out_of_order, out_of_range
 from urdfkit.lint.facts.plugins.typed_groups import typed_defects, typed_groups, wrong_numbers_of_plugins
 
 CONTROLLER = """controller_server:
@@ -89,7 +93,10 @@ ROS1 = """TebLocalPlannerROS:
 def messages(text: str) -> list[str]:
     """Return the messages for a YAML file."""
     source = Source("parameters.yaml", text)
-    found = [message for _, message in (*typed_defects(source), *outside_parameters(source))]
+    found = [
+        message
+        for _, message in (*typed_defects(source), *outside_parameters(source), *nodes_without_parameters(source))
+    ]
     return found + [f"{name}: {right}" for _, name, right in wrong_numbers_of_plugins(source)]
 
 
@@ -176,3 +183,48 @@ def test_parameters_of_servo_are_known_without_a_node() -> None:
     assert messages(SERVO) == []
     (found,) = messages(SERVO.replace("move_group_name", "move_gruop_name"))
     assert "did you mean `move_group_name`" in found
+
+
+def test_a_node_without_the_level_of_its_parameters_is_reported() -> None:
+    (found,) = messages(CONTROLLER + "planner_server:\n  planner_plugins: [GridBased]\n")
+    assert "node `planner_server` has no `ros__parameters`" in found
+
+
+def test_parameters_next_to_an_empty_costmap_are_reported() -> None:
+    text = "local_costmap:\n  local_costmap:\n  ros__parameters:\n    width: 4\n"
+    ((place, _),) = costmaps_not_nested(Source("parameters.yaml", text))
+    assert place.line == 1
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [("range_min", "range_max"), ("u_clamp_min", "u_clamp_max"), ("v_linear_min", "v_linear_max")]
+)
+def test_a_minimum_above_its_maximum_is_reported(low: str, high: str) -> None:
+    assert list(out_of_order(Source("parameters.yaml", f"{low}: 0.1\n{high}: 0.5\n"))) == []
+    ((_, message),) = out_of_order(Source("parameters.yaml", f"{low}: 0.5\n{high}: 0.1\n"))
+    assert message == f"`{low}` is 0.5, more than `{high}`, 0.1"
+
+
+def test_a_negative_variance_is_reported() -> None:
+    (document,) = documents(Source("parameters.yaml", "pose_covariance_diagonal: [0.1, -0.1, 1.0, 1.0, 1.0, 0.1]"))
+    ((_, message),) = value_defects(document, True)
+    assert message == "`pose_covariance_diagonal` has -0.1; a variance must not be negative"
+
+
+def test_the_topics_of_four_wheel_steering_are_those_of_ros1(tmp_path: Path) -> None:
+    texts = {
+        "package.xml": '<package format="2"><name>rover</name><version>1.0.0</version><description>Rover</description>'
+        '<maintainer email="a@example.com">A</maintainer><license>MIT</license>'
+        "<buildtool_depend>catkin</buildtool_depend><exec_depend>move_base</exec_depend>"
+        "<exec_depend>four_wheel_steering_controller</exec_depend></package>",
+        "rover.urdf": '<robot name="rover"><link name="base_link"/></robot>',
+        "config/drive.yaml": "drive:\n  type: four_wheel_steering_controller/FourWheelSteeringController\n"
+        "  wheel_base: 0.7\n  track: 0.6\n  wheel_radius: 0.2\n  enable_twist_cmd: true\n",
+        "launch/move.launch": '<launch><rosparam file="$(find rover)/config/drive.yaml"/>\n'
+        '<node pkg="move_base" type="move_base" name="move_base">\n<remap from="cmd_vel" to="/drive/cmd_vel"/>\n'
+        '<remap from="odom" to="/drive/odom"/></node></launch>',
+    }
+    for name, text in texts.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    assert [str(each.message) for each in lint(tmp_path / "rover.urdf") if each.code in ("K977", "K980", "K992")] == []

@@ -49,7 +49,10 @@ _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
 _GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
 
 INTERFACES = ("position", "velocity", "acceleration", "effort", "torque", "force")
-_INTERFACE_KEYS = ("command_interfaces", "state_interfaces", "interface_name", "interface_names")
+_INTERFACE_KEYS = (
+    *("command_interfaces", "state_interfaces", "interface_name", "interface_names", "command_interface"),
+    "reference_and_state_interfaces",
+)
 
 
 @record(eq=False)

@@ -135,6 +135,9 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         covariances = values.get(name)
         if covariances is not None and covariances.kind == "list" and len(covariances.items) != 6:
             yield covariances, f"`{name}` has {len(covariances.items)} values; it requires 6"
+        for item in covariances.items if covariances is not None else ():
+            if (number_of(item) or 0.0) < 0.0:
+                yield item, f"`{name}` has {item.text}; a variance must not be negative"
     method = values.get("interpolation_method")
     if method is not None and method.text and method.text not in _INTERPOLATIONS and "joints" in values:
         yield method, f"unknown `interpolation_method` `{method.text}`; write `splines` or `none`"

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, walk
-from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1
+from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1, NODES
 
 COSTMAPS = ("local_costmap", "global_costmap")
 
@@ -29,8 +29,21 @@ def costmaps_not_nested(source: Source) -> Iterator[tuple[Node, str]]:
     """
     for root in documents(source) if PARAMETERS in source.text else ():
         for key, value in root.entries:
-            if key.text in COSTMAPS and value.find(PARAMETERS) is not None and value.find(key.text) is None:
+            if key.text in COSTMAPS and value.find(PARAMETERS) is not None and not _has_entries(value.find(key.text)):
                 yield key, f"the node is `/{key.text}/{key.text}`; write `{key.text}:` twice, one level below the other"
+
+
+def _has_entries(node: Node | None) -> bool:
+    return node is not None and bool(node.entries)
+
+
+def nodes_without_parameters(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the nodes of Nav2 whose parameters are not below ``ros__parameters``, for which rcl refuses the file."""
+    for root in documents(source) if PARAMETERS in source.text else ():
+        for key, value in root.entries:
+            names = [name.text for node in walk(value) for name, _ in node.entries]
+            if key.text in NODES and names and not any(name.startswith("ros_") for name in names):
+                yield key, f"node `{key.text}` has no `{PARAMETERS}`; write it above the parameters"
 
 
 def outside_parameters(source: Source) -> Iterator[tuple[Node, str]]:

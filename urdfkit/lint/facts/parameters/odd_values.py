@@ -24,7 +24,7 @@ _SHORTEST = 4
 _NAME = r"(?:\$\([^()]*\))?[A-Za-z_][\w/:.-]*"
 _LISTS_OF_NAMES = (
     r"(?:\w+_)?plugins|observation_sources|polygons|critics|(?:command|state)_interfaces|joints|(?:\w+_)?joint_names"
-    r"|controller_names|re(?:quest|sponse)_adapters"
+    r"|controller_names|dof_names|re(?:quest|sponse)_adapters"
 )
 """Matches lists whose entries are all different."""
 

@@ -40,7 +40,7 @@ minimum_travel_distance update_min_d linearUpdate||0.001 10 m
 minimum_travel_heading update_min_a angularUpdate||0.001 6.3 rad
 resolution|occupied_thresh,update_frequency,robot_base_frame,max_laser_range,rolling_window,global_frame|0.001 1 m
 delta|maxUrange,maxRange|0.001 1 m
-width height|rolling_window,update_frequency,global_frame|0.2 5000 m
+width height|rolling_window,update_frequency,global_frame|0.2 2000 m
 inflation_radius||0.01 20 m
 obstacle_range raytrace_range obstacle_max_range raytrace_max_range||0.05 500 m
 max_laser_range laser_max_range maxRange maxUrange||0.1 500 m
@@ -76,6 +76,10 @@ max_update_rate|sensor_plugin|0.001 200 Hz
 allowed_execution_duration_scaling||1 100
 allowed_goal_duration_margin||0.001 600 s
 allowed_start_tolerance||0.00001 3.2
+vx_samples vy_samples vtheta_samples vth_samples||1 1000
+trans_stopped_velocity rot_stopped_velocity trans_stopped_vel theta_stopped_vel||0.0001 5
+tolerance|use_astar,max_planning_time|0.001 50 m
+min_lookahead max_lookahead|k_phi,slowdown_radius|0.01 50 m
 goal|trajectory|0.00001 3.2
 trajectory|goal|0.00001 10
 ax_max ay_max|vx_max|0.02 100 m/s²

@@ -81,6 +81,10 @@ z_voxels unknown_threshold mark_threshold combination_method: int
 enabled footprint_clearing_enabled publish_voxel_map *.clearing *.marking *.inf_is_valid: bool
 *.topic *.data_type *.sensor_frame: text
 
+DenoiseLayer
+minimal_group_size group_connectivity_type: int
+enabled: bool
+
 StaticLayer
 enabled map_subscribe_transient_local subscribe_to_updates footprint_clearing_enabled: bool
 map_topic: text
@@ -292,6 +296,11 @@ odom*_differential imu*_differential pose*_differential twist*_differential: boo
 odom*_relative imu*_relative pose*_relative imu*_remove_gravitational_acceleration: bool
 odom*_queue_size imu*_queue_size pose*_queue_size twist*_queue_size: int
 map_frame odom_frame base_link_frame world_frame: text
+
+four_wheel_steering
+track wheel_base wheel_radius wheel_steering_y_offset cmd_vel_timeout publish_rate: double
+enable_twist_cmd enable_odom_tf: bool
+base_frame_id odom_frame_id: text
 
 moveit_servo
 publish_period incoming_command_timeout lower_singularity_threshold hard_stop_singularity_threshold: double

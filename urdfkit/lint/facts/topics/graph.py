@@ -22,8 +22,8 @@ from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.model.model import Model
 
 _CONTROLLERS = (
-    (r"diff_drive_controller/|tricycle_controller/", "odom", "Odometry"),
-    (r"_steering_controller/|mecanum_drive_controller/", "odometry", "Odometry"),
+    (r"diff_drive_controller/|tricycle_controller/|four_wheel_steering_controller/", "odom", "Odometry"),
+    (r"(?<!four_wheel)_steering_controller/|mecanum_drive_controller/", "odometry", "Odometry"),
     (r"imu_sensor_broadcaster/", "imu", "Imu"),
     (r"force_torque_sensor_broadcaster/", "wrench", "WrenchStamped"),
 )

@@ -178,7 +178,7 @@ def drive_command_topics(model: Model) -> frozenset[str]:
         is_unstamped, is_stamped = (
             any(re.search(rf"use_stamped_vel\s*:\s*{word}", text, re.I) for text in flags) for word in ("false", "true")
         )
-        if "_steering_controller/" in kind:  # the default differs between releases
+        if re.search(r"(?<!four_wheel)_steering_controller/", kind):  # the default differs between releases
             found |= {f"{name}/reference_unstamped"} if not is_stamped else set()
             found |= {f"{name}/reference"} if not is_unstamped else set()
             continue

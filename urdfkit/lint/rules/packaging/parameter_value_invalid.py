@@ -63,7 +63,7 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.description.control.parameter_defects import invalid_parameters
         from urdfkit.lint.facts.control.controller_settings import misspelt_sections, sections_without_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
-        from urdfkit.lint.facts.navigation.sections import outside_parameters
+        from urdfkit.lint.facts.navigation.sections import nodes_without_parameters, outside_parameters
         from urdfkit.lint.facts.plugins.typed_groups import typed_defects
 
         unread = {
@@ -76,7 +76,8 @@ class ParameterValueInvalid(RobotRule):
             places.add((finding.span.file, finding.span.line))
             yield finding
         for source in yamls(model):
-            for node, message in (*outside_parameters(source), *typed_defects(source)):
+            levels = (*outside_parameters(source), *nodes_without_parameters(source))
+            for node, message in (*levels, *typed_defects(source)):
                 if (source.file, node.line) not in places:
                     places.add((source.file, node.line))
                     yield self.at_span(span_of(source, node), message, kind="plugin")
