@@ -13,6 +13,8 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, EmitEvent, OpaqueFunction, RegisterEventHandler, TimerAction
 from launch.substitutions import Command, EnvironmentVariable, FindExecutable, LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import LifecycleNode, Node, SetParameter
+from launch.event_handlers import OnProcessExit
+from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events.lifecycle import ChangeState
 from launch_ros.substitutions import FindPackageShare
@@ -39,13 +41,17 @@ def generate_launch_description():
     handler = RegisterEventHandler(OnStateTransition(
         target_lifecycle_node=driver, goal_state="inactive", entities=[activate]))
     yaml = RewrittenYaml(source_file="cart.yaml", param_rewrites={})
+    common = [("joy", "cart/joy")]
+    content = ParameterValue(Command(["xacro ", path]), value_type=str)
+    robot = Node(package="tf2_ros", executable="tf2_echo", parameters=[{"text": content}], remappings=common)
+    after = RegisterEventHandler(OnProcessExit(target_action=joy, on_exit=[home]))
     timer = TimerAction(period=2.0, actions=[joy])
     return LaunchDescription([
         DeclareLaunchArgument("mode", default_value="a", choices=["a", "b"]),
         SetParameter("use_sim_time", True),
         OpaqueFunction(function=more),
         Node(package="tf2_ros", executable="buffer_server", parameters=[yaml]),
-        home, timer, driver, handler, configure,
+        robot, after, timer, driver, handler, configure,
     ])
 """
 MISTAKES = [
@@ -65,6 +71,9 @@ MISTAKES = [
     ('["--file", path]', '["--file " + path]', '["--file', "a text and a `PathJoinSubstitution` cannot be added"),
     ('["--file", path]', '[f"--file={path}"]', '[f"--file', "an f-string has no access to the value of a `PathJoin"),
     ("    return nodes", "", "name=mode", "the function `more` of an OpaqueFunction does not return its actions"),
+    ("value_type=str", 'value_type="str"', "value_type", "`value_type` is a text; write a type, such as `str`"),
+    ("remappings=common", "remappings=[common]", "remappings", "an item of `remappings` is a list of pairs"),
+    ("target_action=joy, on_exit=[home]", "joy, [home]", "OnProcessExit(joy", "write `target_action=` before it"),
     ("TRANSITION_CONFIGURE", "TRANSITION_CONFIG", "TRANSITION_CONFIG", "`Transition` has no `TRANSITION_CONFIG`"),
     ("TRANSITION_ACTIVATE", "TRANSITION_CONFIGURE", "matches_action(driver), ", "does not accept `CONFIGURE`"),
     ("node=driver, goal", "node=joy, goal", "node=joy, goal", "is a `Node`; write the variable of a `LifecycleNode`"),
@@ -91,6 +100,8 @@ def test_expressions_of_hundreds_of_attributes_do_not_stop_a_rule(tmp_path, capl
     cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "ros_gz_sim")
     gazebo = "launch.actions.IncludeLaunchDescription(PathJoinSubstitution(["
     gazebo += "FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py'])), "
-    write(cart / "launch/cart.launch.py", LAUNCH.replace("home, timer", f"{gazebo}{include.format(deep)}, timer"))
+    write(
+        cart / "launch/cart.launch.py", LAUNCH.replace("robot, after, timer", f"{gazebo}{include.format(deep)}, timer")
+    )
     lint(cart)
     assert not [each for each in caplog.records if "a bug in urdfkit" in each.getMessage()]

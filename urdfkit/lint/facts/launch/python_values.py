@@ -97,6 +97,8 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         yield call.args[1], _ONLY_FIRST[kind]
     elif kind == "PathJoinSubstitution":
         yield from _absolute_parts(reader.items(call.args[0]) if call.args else [], reader)
+    elif kind == "ParameterValue" and "value_type" in words and _is_text(words["value_type"]):
+        yield words["value_type"], "`value_type` is a text; write a type, such as `str`, without quotes"
     elif kind == "ParameterValue":
         yield from _of_command(call, words.get("value_type"), reader)
     if kind in _OF_PROCESSES and (target := words.get("target_action")) is not None:
@@ -239,6 +241,9 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
             yield item, "an item of `arguments` is not a string; write it in quotes"
     remappings = words.get("remappings")
+    for item in remappings.elts if isinstance(remappings, ast.List) else ():
+        if isinstance(_value(item, reader), ast.List):
+            yield item, "an item of `remappings` is a list of pairs; add the lists, or write `*` before this one"
     pairs = reader.items(remappings) if remappings is not None else []
     if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
         yield remappings, 'an item of `remappings` is a string; write pairs, [("from", "to")]'
