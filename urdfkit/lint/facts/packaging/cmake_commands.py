@@ -120,21 +120,56 @@ def _replaced(command: CMakeCommand, lists: dict[str, _Words]) -> CMakeCommand:
 
 
 def misspelt_word(command: CMakeCommand) -> tuple[str, int, str] | None:
-    """Return the first keyword of ``install()`` that is misspelt: word, offset, suggested word; None without one."""
+    """Return the first keyword of a command that is misspelt: word, offset, suggested word; None without one."""
     from urdfkit.lint.fix_builders import nearest
 
-    for at, (word, start) in enumerate(command.words if command.name == "install" else ()):
-        accepted = _MODES if at == 0 else OPTIONS
-        if word.isupper() and word not in accepted and word not in _OTHERS:
-            near = nearest(word, accepted, cutoff=0.75)
-            if near is not None:
-                return word, start, near
+    is_install = command.name == "install"
+    accepted = OPTIONS if is_install else _ARGUMENTS.get(command.name, ())
+    if is_install and command.words and command.words[0][0] in ("TARGETS", "TARGET"):
+        accepted = (*OPTIONS, *_OF_TARGETS)
+    for at, (word, start) in enumerate(command.words if accepted else ()):
+        if is_install and at == 0:
+            near = nearest(word, MODES, cutoff=0.75) if word.isupper() and word not in MODES else None
+        else:
+            is_other = not re.fullmatch(r"[A-Z_]+", word) or word in accepted or word in _OTHERS
+            near = None if is_other else nearest(word, accepted, cutoff=0.75)
+        if near is not None:
+            return word, start, near
     return None
 
 
-_MODES = ("CODE", "DIRECTORY", "EXPORT", "FILES", "IMPORTED_RUNTIME_ARTIFACTS", "PROGRAMS", "SCRIPT", "TARGETS")
+MODES = ("CODE", "DIRECTORY", "EXPORT", "FILES", "IMPORTED_RUNTIME_ARTIFACTS", "PROGRAMS", "SCRIPT", "TARGETS")
+_OF_TARGETS = (
+    *("ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE"),
+    *("INCLUDES", "EXPORT", "FILE_SET", "NAMELINK_ONLY", "NAMELINK_SKIP", "NAMELINK_COMPONENT", "RUNTIME_DEPENDENCIES"),
+)
+"""Further arguments of ``install(TARGETS …)``."""
+
+_FILES = ("FILES", "DIRECTORY", "NOINSTALL")
+_ARGUMENTS = {
+    "find_package": (
+        "REQUIRED",
+        "COMPONENTS",
+        "OPTIONAL_COMPONENTS",
+        "QUIET",
+        "EXACT",
+        "CONFIG",
+        "MODULE",
+        "NO_MODULE",
+    ),
+    "catkin_package": ("INCLUDE_DIRS", "LIBRARIES", "CATKIN_DEPENDS", "DEPENDS", "CFG_EXTRAS", "EXPORTED_TARGETS"),
+    "add_message_files": _FILES,
+    "add_service_files": _FILES,
+    "add_action_files": _FILES,
+    "generate_messages": ("DEPENDENCIES", "LANGS"),
+    "rosidl_generate_interfaces": ("DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "ADD_LINTER_TESTS"),
+    "catkin_install_python": ("PROGRAMS", "DESTINATION"),
+    "rclcpp_components_register_node": ("PLUGIN", "EXECUTABLE", "EXECUTOR", "RESOURCE_INDEX"),
+}
+"""Command → its arguments in capital letters."""
+
 _OTHERS = ("COMPONENTS", "OPTION")
-"""First words of ``install()``, and words that resemble an option."""
+"""Words that resemble an argument."""
 
 OPTIONS = frozenset(
     (

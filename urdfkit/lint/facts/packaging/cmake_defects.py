@@ -87,7 +87,9 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
         misspelt = misspelt_word(command)
         if misspelt is not None:
             word, start, near = misspelt
-            yield BuildDefect(source, start, word, f"unknown argument `{word}` of install()" + Suggestion(near, word))
+            yield BuildDefect(
+                source, start, word, f"unknown argument `{word}` of {command.name}()" + Suggestion(near, word)
+            )
             continue
         if command.name not in ("install", "catkin_install_python") or words[:1] not in (
             ["DIRECTORY"],

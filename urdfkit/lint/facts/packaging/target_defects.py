@@ -15,6 +15,7 @@ from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect, evaluated
 from urdfkit.lint.facts.packaging.cmake_packages import provided
+from urdfkit.lint.facts.packaging.interface_defects import interface_defects
 from urdfkit.lint.project.code_files import code_texts
 
 INTERFACES = (".msg", ".srv", ".action")
@@ -34,6 +35,10 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
     generator = generators[0]
     texts = [(path, text) for path, text in code_texts(files.folder, INTERFACES) if path.parent.parent == files.folder]
     is_catkin = generator.name == "generate_messages"
+    dependencies = files.dependencies()
+    lines = list(interface_defects(files, texts, dependencies, 1 if is_catkin else 2))
+    yield from lines
+    misspelt = {defect.text for defect in lines}
     yield from _ungenerated(source, every, generator, [path for path, _ in texts])
     words = [word for word, _ in generator.words]
     at = words.index("DEPENDENCIES") if "DEPENDENCIES" in words else len(words)
@@ -43,7 +48,7 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
     seen = {files.name, *(covered or ())}
     for path, text in texts if covered is not None else ():
         for package in _packages(text, is_catkin):
-            if package not in seen and path.name in source.text:
+            if package not in seen and path.name in source.text and package not in misspelt:
                 seen.add(package)
                 message = f"`{path.name}` uses `{package}`, which is missing in DEPENDENCIES"
                 yield BuildDefect(source, start, word, message)

@@ -20,6 +20,17 @@ _COMMANDS = (
     *("add_executable", "add_library", "target_link_libraries", "include_directories", "target_include_directories"),
     *("ament_target_dependencies", "catkin_install_python", "ament_export_dependencies", "add_message_files"),
     *("generate_messages", "add_dependencies", "ament_python_install_package", "catkin_python_setup"),
+    *("add_service_files", "add_action_files", "rosidl_generate_interfaces", "ament_export_targets", "ament_add_gtest"),
+    *("rclcpp_components_register_node", "rclcpp_components_register_nodes", "ament_export_include_directories"),
+    *("pluginlib_export_plugin_description_file", "ament_lint_auto_find_test_dependencies", "ament_export_libraries"),
+    *(
+        "ament_add_test",
+        "ament_add_gtest_executable",
+        "ament_add_gtest_test",
+        "ament_add_gmock_executable",
+        "ament_add_gmock_test",
+    ),
+    *("ament_add_pytest_test", "target_compile_features", "target_compile_options", "ament_add_gmock"),
 )
 _TESTED = {
     "roslaunch_add_file_check": 0,
@@ -79,9 +90,12 @@ class BuildFileInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
         from urdfkit.lint.facts.packaging.cmake_packages import package_defects
+        from urdfkit.lint.facts.packaging.installation_defects import installation_defects
+        from urdfkit.lint.facts.packaging.plugin_defects import plugin_defects
         from urdfkit.lint.facts.packaging.setup_defects import setup_defects
         from urdfkit.lint.facts.packaging.target_code import code_defects
         from urdfkit.lint.facts.packaging.target_defects import INTERFACES, message_defects, target_defects
+        from urdfkit.lint.project.code_files import CPP
 
         used = _used_paths(model)
         for files in build_files(model):
@@ -97,10 +111,12 @@ class BuildFileInconsistent(RobotRule):
                 every = commands(files.cmake)
                 elsewhere = misplaced(files, files.cmake, every, {*folders}, named)
                 defects = [*cmake_defects(files.cmake, every), *elsewhere]
-                model.expanded.packages.watch(files.folder, *INTERFACES)
+                model.expanded.packages.watch(files.folder, *INTERFACES, *CPP, ".xml")
                 defects += package_defects(files, files.cmake, every)
                 defects += message_defects(files, files.cmake, every)
                 defects += target_defects(files, files.cmake, every, _started(model, files.name))
+                defects += installation_defects(files, files.cmake, every, _started(model, files.name))
+                defects += plugin_defects(files, files.cmake, every)
                 defects += code_defects(files, files.cmake, every)
                 yield from self._cmake(files, files.cmake, every)
             elif files.setup is not None:
