@@ -430,7 +430,10 @@ target_link_libraries(core_test stdc++)
         ("install", "catkin_add_gtest(${PROJECT_NAME}-test a.cpp)\ntarget_link_libraries(cart-test m)\ninstall", []),
         (
             "install",
-            _TEST_OF_AMENT.replace("ament_cmake_gtest", "rostest").replace("ament_add", "add_rostest") + "install",
+            _TEST_OF_AMENT.replace("ament_cmake_gtest", "rostest")
+            .replace("ament_add", "add_rostest")
+            .replace("test.cpp", "${CASE} test.cpp")
+            + "install",
             [],
         ),
         ("install", "if(TARGET core)\n  target_link_libraries(core m)\nendif()\ninstall", []),

@@ -13,7 +13,10 @@ _LET = r"<let\s+name=[\"']([\w.-]+)[\"']\s+value=[\"']\$\(find-pkg-share\s+([\w-
 _LET_USE = r"\$\(var\s+([\w.-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
 """Matches a folder of a package in a ``<let>``, and a path in such a folder."""
 
-_USES = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|<(?:node|composable_node)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"
+_USES = (
+    r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)"
+    r"|<(?:node|composable_node|node_container)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"
+)
 _YAML_NODE = r"^[ \t]*(?:-[ \t]+)?pkg:[ \t]*[\"']?([\w-]+)[\"']?[ \t]*(?:#.*)?$"
 _XACRO = r"\bcommand\s*=\s*[\"'](xacro)\s|\$\(command\s+[\"'](xacro)\s"
 _XACRO_WORD = r"[\"']xacro(?:\.py)?[\"'\s]"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_folder
+from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import OPTIONS, CMakeCommand, misspelt_word, without_comments
@@ -170,7 +171,9 @@ def _targets(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]
     accepted = {*defined, *(named(word) for (key, _), (word, _) in conditions if key == "TARGET")}
     accepted |= {named(each.words[0][0]) for each in every if each.words and re.fullmatch(_TEST, each.name)}
     found = {each.words[0][0] for each in every if each.name == "find_package" and each.words}
-    has_others = not found <= {*ros_packages(), "catkin"}  # packages of the system can define targets of any name
+    around = neighbours(Path(source.file).absolute().parent)
+    # Packages of the system can define targets of any name.
+    has_others = not found <= {*ros_packages(), "catkin", *around}
     uses: list[tuple[str, int]] = []
     for each in every:
         words = each.words[:1] if each.name in _OF_TARGET else ()

@@ -88,6 +88,12 @@ _NEEDED = {
     "ament_add_gmock": ("ament_cmake_gmock", "ament_cmake_ros"),
     "ament_add_pytest_test": ("ament_cmake_pytest", "ament_cmake_ros"),
     "ament_lint_auto_find_test_dependencies": ("ament_lint_auto",),
+    "ament_target_dependencies": (
+        "ament_cmake",
+        "ament_cmake_ros",
+        "ament_cmake_auto",
+        "ament_cmake_target_dependencies",
+    ),
     "add_launch_test": ("launch_testing_ament_cmake",),
 }
 """Command → the packages that define it; one of them suffices."""
@@ -167,9 +173,15 @@ def package_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
             reported.add(word)
             message = f"{every[at].name}() needs find_package({word} REQUIRED)"
             yield BuildDefect(source, *_place(every, word), message)
-    for command in every:
+    for at, command in enumerate(every):
         providers = _NEEDED.get(command.name, ())
-        if not providers or providers[0] in reported or any(name in found for name in providers):
+        places = [found[name] for name in providers if name in found]
+        if not providers or providers[0] in reported or places:
+            if places and min(places) > at and providers[0] not in reported:
+                reported.add(providers[0])
+                late = every[min(places)]
+                message = f"find_package({providers[0]}) is called after {command.name}(), which needs it"
+                yield BuildDefect(source, late.start, late.name, message)
             continue
         is_test = providers[0].startswith("ament_") or providers[0] == "launch_testing_ament_cmake"
         others = covered if not is_test else {name for name in found if name not in _PROVIDED and "ament" in name}
@@ -178,7 +190,7 @@ def package_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
             continue
         reported.add(providers[0])
         message = f"{command.name}() needs find_package({providers[0]} REQUIRED)"
-        place = (command.start, command.name) if is_test else _place(every, providers[0])
+        place = (command.start, command.name) if is_test and "add" in command.name else _place(every, providers[0])
         yield BuildDefect(source, *place, message)
     yield from _exported(files, source, every, found)
 

@@ -143,9 +143,14 @@ def _targets(
         named.update((_name(word, files), command) for word in words[1:end])
     if any("$" in name for name in named):
         return
-    added = {_name(each.words[0][0], files) for each in every if each.name.startswith("add_") and each.words}
-    if not added.issuperset(named):
+    added = {_name(each.words[0][0], files): at for at, each in enumerate(every) if "add_" in each.name and each.words}
+    if not {*added}.issuperset(named):
         return  # the name of a target is wrong
+    for number, each in enumerate(every):
+        early = next((name for name in named if named[name] is each and added[name] > number), None)
+        if early is not None:
+            message = f"install() is called before the target `{early}` is defined"
+            yield BuildDefect(source, each.start, each.name, message)
     tested = 0
     is_catkin = files.build_tool == "catkin"
     linked = {

@@ -58,12 +58,24 @@ def plugin_defects(files: BuildFiles, cmake: Source, every: list[CMakeCommand]) 
     has_macros = is_used or re.search(r"pluginlib|rclcpp_components|nodelet", cmake.text) is not None
     texts = dict(code_texts(files.folder, CPP)) if has_macros else {}
     macros = [macro for path, text in texts.items() for macro in _macros(path, text)]
+    accepted = {files.name, *files.dependencies()}
+    for command in every:
+        if command.name == _EXPORT and len(command.words) == 1:
+            message = f"{_EXPORT}() needs the package of the base class and a file"
+            yield BuildDefect(cmake, command.start, command.name, message)
+        elif command.name == _EXPORT and command.words and "$" not in command.words[0][0]:
+            word, start = command.words[0]
+            if word not in accepted and not any(word in each.text for each in described):
+                near = next((name for name in sorted(accepted) if is_slip(word, name)), None)
+                message = f"no dependency has the base class of the package `{word}`" + Suggestion(near, word)
+                yield BuildDefect(cmake, start, word, message)
     for place, name in exported:
         path = files.folder / name
         if "$" not in name and not is_file(path) and str(path) not in files.texts:
             near = nearest(name, [each.name for each in listed], cutoff=0.6)
             yield BuildDefect(*place, f"`{name}` does not exist in this package" + Suggestion(near, name))
     names = {name for _, name in exported}
+    names |= {each.words[0][0] for each in every if each.name == _EXPORT and len(each.words) == 1}
     if any("$" in name for name in names):
         return
     plugins = [macro for macro in macros if macro.kind.startswith("PLUGINLIB")]
@@ -195,7 +207,7 @@ def _classes(sources: list[Source], macros: list[ExportedClass], texts: dict[Pat
             if near is not None:
                 message = f"unknown attribute `{near}`" + Suggestion("name", near)
                 yield BuildDefect(source, tag.attributes[near].start, near, message)
-    for macro in macros if classes else ():
+    for macro in macros if sources else ():
         if macro.name not in described and not any(is_slip(macro.name, kind) for kind in types):
             message = f"no description of plugins names the class `{macro.name}`"
             yield BuildDefect(macro.source, macro.start, macro.name, message, "warning")
@@ -285,6 +297,25 @@ def _components(
                     message = f"RCLCPP_COMPONENTS_REGISTER_NODE is missing in the code of `{word}`"
                 yield BuildDefect(cmake, start, word, message)
     added = [each for each in every if each.name == "add_library"]
+    for command in every if not is_open and macros else ():
+        if command.name != _NODES[0] or len(command.words) < 2:
+            continue
+        words = [word for word, _ in command.words]
+        macro = by_name.get(words[words.index("PLUGIN") + 1]) if "PLUGIN" in words[:-1] else None
+        owner = next(
+            (
+                each.words[0][0]
+                for each in added
+                if macro and any(word.endswith(macro.path.name) for word, _ in each.words)
+            ),
+            None,
+        )
+        word, start = command.words[0]
+        if owner is not None and word != owner and any(each.words[0][0] == word for each in added):
+            message = f"the code of the component `{macro.name}` is in the target `{owner}`" if macro else ""
+            yield BuildDefect(cmake, start, word, message + Suggestion(owner, word))
+        elif words[-1] in ("EXECUTABLE", "EXECUTOR"):
+            yield BuildDefect(cmake, command.words[-1][1], words[-1], f"{words[-1]} has no name")
     for macro in macros if not is_open else ():
         target = next((each for each in added if any(word.endswith(macro.path.name) for word, _ in each.words)), None)
         if macro.name not in registered and target is not None:

@@ -239,6 +239,8 @@ def _folder(files: BuildFiles, source: Source, has_scripts: bool) -> Iterator[Bu
     """Yield a folder of the executables in which ``ros2 run`` does not find them."""
     config = files.config
     if config is not None:
+        if has_scripts and not re.search(r"script[-_]dir|install[-_]scripts", source.text):
+            yield from _settings(config, files.name)
         for at in re.finditer(
             r"(?m)^\s*(?:script[-_]dir|install[-_]scripts)\s*=\s*\$base/([\w/-]+?)/?\s*$", config.text
         ):
@@ -250,3 +252,26 @@ def _folder(files: BuildFiles, source: Source, has_scripts: bool) -> Iterator[Bu
     if has_scripts and not is_elsewhere:
         message = f"setup.cfg is missing: `ros2 run` finds executables only in `lib/{files.name}`"
         yield BuildDefect(source, source.text.index("console_scripts"), "console_scripts", message)
+
+
+def _settings(config: Source, name: str) -> Iterator[BuildDefect]:
+    """Yield missing or misspelt sections and keys of setup.cfg for the folder of the executables."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    words = [(at[1], at.start(1)) for at in re.finditer(r"(?m)^[ \t]*\[?([\w-]+)(?=\s*[\]=])", config.text)]
+    found = {word.replace("-", "_"): start for word, start in words}
+    for wanted, folder in (("develop", ""), ("script_dir", "develop"), ("install", ""), ("install_scripts", "install")):
+        if wanted in found:
+            continue
+        near = next((word for word in found if is_slip(word, wanted)), None)
+        if near is not None:
+            message = f"unknown {'key' if folder else 'section'} `{near}`" + Suggestion(wanted, near)
+            yield BuildDefect(config, found[near], near, message)
+        elif wanted == "install_scripts" or (wanted == "script_dir" and "develop" in found):
+            start, text = (found[folder], folder) if folder in found else (0, config.text.partition("\n")[0])
+            message = f"setup.cfg does not set `{wanted}=$base/lib/{name}` in [{folder}]"
+            yield BuildDefect(config, start, text, message)
+            return
+    for at in re.finditer(r"(?m)^[ \t]*(?:script[-_]dir|install[-_]scripts)[ \t]*=[ \t]*(\$\w+)/", config.text):
+        if at[1] != "$base":
+            yield BuildDefect(config, at.start(1), at[1], f"unknown variable `{at[1]}`" + Suggestion("$base", at[1]))

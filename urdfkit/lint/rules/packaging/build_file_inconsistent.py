@@ -38,8 +38,14 @@ _TESTED = {
     "catkin_add_nosetests": 0,
     "add_launch_test": 0,
     "ament_add_pytest_test": 1,
+    "add_rostest_gtest": 1,
 }
 """Command of a test → which of its arguments is a file or folder of the package."""
+_WITH_SOURCES = (
+    *("add_executable", "add_library", "ament_add_gtest", "ament_add_gmock", "catkin_add_gtest", "add_rostest_gtest"),
+)
+"""Commands that name source files."""
+
 _GENERATING = (
     r"(?i)add_custom_|configure_file|\bwrap_|execute_process|file\s*\(\s*(?:APPEND|CONFIGURE|COPY|DOWNLOAD|GENERATE|WRITE)"
     r"|\binclude\s*\(\s*(?!GNUInstallDirs|CTest\b|Check\w|CMake\w)"
@@ -89,6 +95,7 @@ class BuildFileInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
+        from urdfkit.lint.facts.packaging.catkin_defects import catkin_defects
         from urdfkit.lint.facts.packaging.cmake_packages import package_defects
         from urdfkit.lint.facts.packaging.installation_defects import installation_defects
         from urdfkit.lint.facts.packaging.plugin_defects import plugin_defects
@@ -112,6 +119,7 @@ class BuildFileInconsistent(RobotRule):
                 elsewhere = misplaced(files, files.cmake, every, {*folders}, named)
                 defects = [*cmake_defects(files.cmake, every), *elsewhere]
                 model.expanded.packages.watch(files.folder, *INTERFACES, *CPP, ".xml")
+                defects += catkin_defects(files, files.cmake, every)
                 defects += package_defects(files, files.cmake, every)
                 defects += message_defects(files, files.cmake, every)
                 defects += target_defects(files, files.cmake, every, _started(model, files.name))
@@ -148,9 +156,9 @@ class BuildFileInconsistent(RobotRule):
                         yield self._at(source, start, word, f"unknown package `{word}`" + Suggestion(suggestion, word))
             if command.name in ("install", "catkin_install_python"):
                 yield from self._install(files, source, command)
-            elif command.name in ("add_executable", "add_library"):
+            if command.name in _WITH_SOURCES:
                 yield from self._sources(files, source, command)
-            elif len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
+            if len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
                 word, start = command.words[at]
                 if "." in word or near_path(files.folder / word):  # tests may be generated into another folder
                     yield from self._existing(files, source, word, start)
@@ -189,10 +197,14 @@ class BuildFileInconsistent(RobotRule):
 
     def _sources(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each source file that does not exist in a folder with other files in C++."""
+        from urdfkit.lint.facts.ros_packages import is_slip
+
         is_generated = re.search(_GENERATING, source.text) is not None
         for word, start in command.words[1:] if not is_generated else ():
             folder = (files.folder / word).parent
-            if re.fullmatch(r"[\w./-]+\.(?:c|cc|cpp|cxx)", word) and any(folder.glob("*.c*")):
+            first = word.partition("/")[0]
+            is_typo = not is_folder(folder) and any(is_slip(first, each.name) for each in files.folder.glob("*/"))
+            if re.fullmatch(r"[\w./-]+\.(?:c|cc|cpp|cxx)", word) and (any(folder.glob("*.c*")) or is_typo):
                 yield from self._existing(files, source, word, start)
 
     def _existing(self, files: BuildFiles, source: Source, word: str, start: int) -> Findings:

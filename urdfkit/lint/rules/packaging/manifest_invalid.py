@@ -110,7 +110,9 @@ class ManifestInvalid(RobotRule):
             message = f"the build tool is `{tools[0][0]}`, but CMakeLists.txt uses `{expected}`"
             yield self._at(files, tools[0][1], message, kind="build tool")
         elif expected in ("catkin", "ament_cmake") and not any(
-            text.startswith(expected) and tag.name != "test_depend" for text, tag in files.tags(*depends)
+            text in (expected, f"{expected}_auto", f"{expected}_ros", f"{expected}_simple")
+            and tag.name not in ("exec_depend", "run_depend", "test_depend", "doc_depend")
+            for text, tag in files.tags(*depends)
         ):
             message = f"package.xml has no <buildtool_depend>{expected}</buildtool_depend>"
             yield self._at(files, root, message, "warning", True)

@@ -63,7 +63,8 @@ class PackageXmlDependency(RobotRule):
     - packages of the plugins of Nav2 and MoveIt, and of the Gazebo plugin that runs controllers, if the package starts
       Gazebo or depends on other packages of this kind
 
-    A build or test dependency is not sufficient for launch files. A dependency on a metapackage, such as
+    A build or test dependency is not sufficient for launch files and imports, and a run or test dependency not for
+    packages that CMakeLists.txt finds. A dependency on a metapackage, such as
     ``navigation2``, covers the packages that the metapackage depends on. A name that misspells a dependency, a package
     of the workspace or a common package by one letter is reported as an error at each place. Every other package is
     reported once, at the line of package.xml after which the dependency belongs, with a list of the places that use the
@@ -180,6 +181,7 @@ class PackageXmlDependency(RobotRule):
         """Yield a finding for each package that Python code imports or CMake finds without a dependency."""
         from urdfkit.lint.facts.packaging.build_files import build_files
         from urdfkit.lint.facts.packaging.code_packages import packages_found, packages_in_code
+        from urdfkit.lint.facts.packaging.dependency_kinds import wrong_kinds
 
         for files in build_files(model):
             near, manifest = neighbours(files.folder), model.manifest(files.folder)
@@ -188,7 +190,11 @@ class PackageXmlDependency(RobotRule):
                 continue
             model.expanded.packages.watch(files.folder, ".py")
             uses = list(packages_in_code(files.folder, near))
+            imported = {name for _, name, *_ in uses}
             uses += ((files.cmake, *each) for each in packages_found(files.cmake, near)) if files.cmake else ()
+            for tag, name, message, help in wrong_kinds(files, {name for _, name, *_ in uses} - imported, imported):
+                span = files.manifest.span(tag.start, tag.close_end)
+                yield self.at_span(span, message, help=help, names=(name,))
             for source, name, start, end in uses:
                 is_covered = name in _COVERED and _COVERED[name] in needed
                 if name not in {*needed, files.name} and not is_covered and not is_in_metapackage(name, needed):
