@@ -300,3 +300,13 @@ def test_lines_of_messages(tmp_path, monkeypatch, file, old, new, expected):
     assert texts[file].count(old) == 1
     write(tmp_path, {file: texts[file].replace(old, new)})
     assert found(tmp_path) == ([f"{file}:{expected}"] if expected else [])
+
+
+def test_descriptions_of_plugins_in_packages_without_a_robot(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path / "cart", {name: text for name, text in FILES.items() if name != "urdf/cart.urdf"})
+    cmake = CMAKE.replace("install(DIRECTORY urdf DESTINATION share/${PROJECT_NAME})\n", "")
+    description = FILES["plans.xml"].replace("cart::Slow", "cart::Slwo")
+    write(tmp_path / "cart", {"CMakeLists.txt": cmake, "plans.xml": description})
+    message = "no code exports the class `cart::Slwo`; did you mean `cart::Slow`?"
+    assert found(tmp_path) == [f"cart/plans.xml:2: {message}"]

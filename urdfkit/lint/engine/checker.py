@@ -230,7 +230,7 @@ class Checker:
         related = model.related_files if model.expanded.root is not None else ()
         read = (*model.expanded.sources, *related, *(each.file for each in findings))  # such as YAML files of xacro
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
-        findings = _only(entry, findings, files)
+        findings = _only(entry, findings)
         return EntryResult(tuple(findings), files, note, used, "; ".join(self.runner.failures), unused), model
 
     def _check_package(
@@ -247,16 +247,17 @@ class Checker:
         folder = entry.path.absolute().parent
         is_included = any(next(folder.rglob(end), None) for end in ("*.urdf", "*.xacro"))  # by other packages
         name = "" if is_included else folder.name
-        found, refused = tuple(_only(entry, findings, files)), "; ".join(self.runner.failures)
+        found, refused = tuple(_only(entry, findings)), "; ".join(self.runner.failures)
         return EntryResult(found, files, note, refused=refused, without_robot=name), model
 
 
-def _only(entry: Entry, findings: list[Finding], files: Mapping[str, str]) -> list[Finding]:
+def _only(entry: Entry, findings: list[Finding]) -> list[Finding]:
     """Return the findings in the files that the entry is about."""
     if not entry.only:
         return findings
     only = {path.resolve() for path in entry.only}
-    names = {name for name, path in files.items() if not only.isdisjoint(((at := Path(path).resolve()), *at.parents))}
+    names = {name for one in findings for name in (one.file, *(each.file for each in one.related))}
+    names = {name for name in names if not only.isdisjoint(((at := Path(name).resolve()), *at.parents))}
     return [one for one in findings if not names.isdisjoint((one.file, *(each.file for each in one.related)))]
 
 
