@@ -75,7 +75,7 @@ def test_the_stored_result_depends_on_the_launch_file_and_the_files_of_the_varia
 ) -> None:
     launch, robot = package / "launch/sim.launch.py", package / "urdf/cart.urdf.xacro"
     launch.write_text(LAUNCH.replace("VALUE", "false"))
-    assert found(capsys) == set()
+    assert found(capsys) == {("T201", 6, "lidar:=true")}
     launch.write_text(LAUNCH.replace("VALUE", "true"))
     part = package / "urdf/part.xacro"
     robot.write_text(ROBOT.replace('<link name="lidar"/>', '<xacro:include filename="part.xacro"/>'))

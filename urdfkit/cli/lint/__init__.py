@@ -71,7 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="for untrusted files: read only the package, its workspace and the package path, and ignore environment "
         "variables",
     )
-    help = "do not lint robots again with the xacro arguments that simulation and display launch files pass"
+    help = "do not lint robots again with xacro arguments of launch files, or for branches of conditions"
     add("--no-launch-arguments", action="store_true", help=help)
     help = "instantiate this macro of the file; key:=value arguments also set its parameters"
     add("--macro", metavar="NAME", help=help)

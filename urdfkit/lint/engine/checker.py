@@ -145,10 +145,13 @@ class Checker:
             found, model = self.examine(entry)
             others: list[Model] = []
             if self.options.launch_arguments and entry.has_robot and not entry.is_library:
-                from urdfkit.lint.engine.launch_variants import with_variants
+                from urdfkit.lint.engine.variants.branch_variants import with_branches
+                from urdfkit.lint.engine.variants.launch_variants import with_variants
 
                 own = self.options.arguments
                 found, others = with_variants(found, model, lambda passed: self.examine(entry, passed), own)
+                found, branches = with_branches(found, model, others, lambda passed: self.examine(entry, passed), own)
+                others += branches
             if confinement is not None:
                 refused = (_not_read(Path(path), entry.path) for path in confinement.take_refused())
                 hidden = _hidden_variables(model.expanded.sources.values())
