@@ -165,6 +165,18 @@ def test_a_command_of_a_mimic_joint_in_the_release_that_the_package_names(tmp_pa
     assert [line for _, _, line in findings] == lines
 
 
+CALLED = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="moved" params="name">
+<joint name="${name}"><command_interface name="position"/><state_interface name="position"/></joint></xacro:macro>"""
+
+
+def test_a_command_of_a_mimic_joint_is_at_the_call_of_a_macro_that_is_right_for_others(tmp_path):
+    head, _, _ = MIMIC.partition('<joint name="a"><command')
+    text = head.replace('<robot name="arm">', CALLED) + '<xacro:moved name="a"/>\n<xacro:moved name="b"/>'
+    files = {"package.xml": MANIFEST.format("Gazebo Harmonic."), "arm.urdf.xacro": f"{text}</ros2_control></robot>"}
+    findings = found(tmp_path, files, "C720")
+    assert findings == [("C720", "arm.urdf.xacro", text.count("\n") + 1)]
+
+
 LIMITS = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 <xacro:property name="limits" value="${{xacro.load_yaml('{}')}}"/><link name="hand"/><link name="left_arm"/>
 <joint name="arm" type="revolute"><parent link="hand"/><child link="left_arm"/><axis xyz="0 0 1"/>

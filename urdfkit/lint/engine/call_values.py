@@ -35,6 +35,9 @@ _TEXT = rf"<[\w:.-]+(?:\s[^<>]*)?>(?:[\w~/]+:=)?{_HANDED_ON}</"
 _OF_VALUES = re.compile("C719|G61[149]|I50[14]|I514|I518|J40[5-9]|J41[019]|J42[01235]|J429|S91[46]|Z823")
 """Matches codes of findings on a value that is wrong by itself: its unit, sign or size."""
 
+_UNIT = r"\*\s*(?:10+(?:\.0*)?|1\.?0*e\+?\d+)(?![\w.])|/\s*(?:0?\.0+1|1\.?0*e-\d+)(?![\w.])"
+"""Matches a factor that converts a length to a smaller unit."""
+
 _MOST = 2000
 """Length of the content of an element that is searched for expressions [characters]."""
 
@@ -104,6 +107,9 @@ def _literal(finding: Finding, model: Model, sources: list[ValueSources]) -> Tra
     text = _text(finding, model) if _OF_VALUES.fullmatch(finding.code) else ""
     if text and "${" not in text:
         text += _content(finding, model)
+    is_unit = finding.code == "J422" and re.search(_UNIT, text) is not None
+    if is_unit or finding.kind == "argument":  # The factor or the whole argument is wrong, not a value in it.
+        return ()
     if "${" not in text or "urdfkit:" in model.document(finding.file).source.text:
         return ()
     if not sources:

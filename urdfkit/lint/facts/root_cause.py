@@ -175,12 +175,27 @@ def written_at(model: Model, element: Element | None, attribute: str) -> Span | 
     written = tag.attributes.get(attribute) if tag is not None else None
     if element is None or written is None:
         return None
-    place, text, calls = (element.origin.position, attribute), written.value, tuple(element.origin.expansions)
+    return _handed_on(model, (element.origin.position, attribute), written.value, element.origin.expansions)
+
+
+def written_at_call(model: Model, place: Place, calls: Sequence[Expansion]) -> Span:
+    """Return the place of an argument of a macro call, or of the argument or property that it hands on.
+
+    Args:
+        model: the linted model.
+        place: the argument.
+        calls: the macro calls around the call, innermost first.
+    """
+    tag = model.tag(place[0])
+    return _handed_on(model, place, tag.attributes[place[1]].value if tag is not None else "", calls)
+
+
+def _handed_on(model: Model, place: Place, text: str, calls: Sequence[Expansion]) -> Span:
     while (alone := re.fullmatch(r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*", text)) is not None:
         text, deeper, outer = value_of(model, alone[1], calls)
         if deeper is None:
             break
-        place, calls = deeper, tuple(outer)
+        place, calls = deeper, outer
     return model.span(*place)
 
 

@@ -12,7 +12,7 @@ from urdfkit.lint.model.model import Model
 
 _STATED = re.compile(
     r"(?i)\b(positive|negative)\b[^.;,]{0,40}?\b"
-    r"(?:(up(?:wards?)?|lifts?|raises?)|(down(?:wards?)?|lowers?)|(forwards?)|(backwards?|rearwards?))\b"
+    r"(?:(up(?:wards?)?|lifts?(?!\s*(?:[=:]|means\b|is\b))|raises?)|(down(?:wards?)?|lowers?)|(forwards?)|(backwards?|rearwards?))\b"
 )
 _SIGN = re.compile(r"(?i)<!--[^<>]*\b(?:positive|negative)\b")
 _LOOKS = re.compile(r"(?i)\blooks?\b")

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from functools import cached_property
 
+from urdfkit.description.urdf.robot import Link
 from urdfkit.lint.finding import Finding
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.urdf.robot import Joint, Link
+    from urdfkit.description.urdf.robot import Joint
     from urdfkit.description.xml.source import Position, Span
     from urdfkit.lint.model.model import Model
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 _OF_NAMES = re.compile("C70[17]|J416|K959|M104|T20[12]|Z80[1-4]")
 """Matches codes of findings on names of links and joints that do not exist."""
+
+_OF_MOVING = re.compile("C70[17]|J416|K959")
+"""Matches codes of findings on names that only joints which move have."""
 
 _COMMENT = re.compile(r"<!--.*?-->|(?<![\w\"'&/])#[^\n]*", re.DOTALL)
 _STANDARD = ("base_link", "base_footprint")
@@ -115,6 +119,12 @@ def with_renamed_definitions(findings: list[Finding], model: Model) -> list[Find
     meant: dict[Position, str] = {}
     renamed: dict[str, str] = {}
     for finding in lacking:
+        part = parts.get(finding.meant)
+        is_fixed = part is not None and not isinstance(part, Link) and part.type == "fixed"
+        if is_fixed and _OF_MOVING.match(
+            finding.code
+        ):  # Few files name fixed joints, so one without uses may be right.
+            continue
         if finding.meant in parts and finding.suggestion is not None and finding.suggestion.written:
             at = parts[finding.meant].element.origin.position
             uses.setdefault(at, {})[finding.span] = finding.suggestion.written

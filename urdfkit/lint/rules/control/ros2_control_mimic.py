@@ -1,6 +1,7 @@
 """C720 ros2-control-mimic-contradiction."""
 
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.root_cause import call_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -49,7 +50,14 @@ class Ros2ControlMimic(RobotRule):
                 name = element.get("name") or ""
                 if (message := _commanded(model, element, name)) is not None:
                     place = element.find("command_interface") or element
-                    yield self.at(model, place, message, joint=name, help="remove its command interfaces")
+                    others = [
+                        interface
+                        for other in block.element.find_all("joint")
+                        if _commanded(model, other, other.get("name") or "") is None
+                        and (interface := other.find("command_interface")) is not None
+                    ]
+                    call = call_of(place, others)  # of a macro that is right for other joints
+                    yield self.at(model, call or place, message, joint=name, help="remove its command interfaces")
                 for parameter in (each for each in element.find_all("param") if each.get("name") == "mimic"):
                     master = parameter.text.strip()
                     if name not in joints or "$" in master:

@@ -1,8 +1,11 @@
 """I519 inertia-axes-swapped."""
 
+import re
+from collections.abc import Sequence
 from itertools import permutations
 
 from urdfkit.description.urdf.robot import Cylinder, Link
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -11,6 +14,9 @@ _ALIKE = 0.1
 
 _EQUAL = 0.02
 """Largest relative difference of moments that were computed with the same formula."""
+
+_AXIS = r"(?i)\b([xyz])[- ]axis\b|\b(?:axis|along)\s+(?:is\s+)?(?:the\s+)?[+-]?([xyz])\b"
+"""Matches the axis of a shape in a comment."""
 
 _UNLIKE = 0.25
 """Smallest relative difference of moments that contradict each other."""
@@ -82,10 +88,32 @@ class InertiaAxesSwapped(RobotRule):
             shown = " ".join(f"{value:.3g}" for value in expected)
             help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
             fix, origin = computed(model, link, element), inertial.element.find("origin")
-            if fix is None and origin is not None and _lacks_rotation(link):
+            axes = _swapped(model, element, actual, expected) if fix is None else None
+            if axes is not None:
+                yield self.at(model, element, message, attribute=axes, link=link.name, help=help)
+            elif fix is None and origin is not None and _lacks_rotation(link):
                 yield self.at(model, origin, message, attribute="rpy", link=link.name, help=help)
             else:
                 yield self.at(model, element, message, link=link.name, help=help, fix=fix)
+
+
+def _swapped(model: Model, element: Element, actual: Sequence[float], expected: Sequence[float]) -> str | None:
+    """Return the first wrong moment, if the comment before the macro around it states the axis of the shape.
+
+    Then the tensor is wrong, and not the rotation of its frame.
+    """
+    calls, tag = element.origin.expansions, model.tag(element.origin.position)
+    macro = next((each for each in tag.ancestors() if each.name == "xacro:macro"), None) if tag is not None else None
+    pairs = [abs(expected[1] - expected[2]), abs(expected[0] - expected[2]), abs(expected[0] - expected[1])]
+    if not calls or macro is None:
+        return None
+    before = model.document(element.origin.position.file).source.text[: macro.start].rstrip()
+    comment = before.rpartition("<!--")[2] if before.endswith("-->") else ""
+    stated = {axis.lower() for pair in re.findall(_AXIS, comment) for axis in pair if axis}
+    if stated != {"xyz"[pairs.index(min(pairs))]}:
+        return None
+    names = zip(("ixx", "iyy", "izz"), actual, expected, strict=True)
+    return next((name for name, a, b in names if abs(a - b) > _ALIKE * max(a, b)), None)
 
 
 def _lacks_rotation(link: Link) -> bool:

@@ -4,7 +4,8 @@ from math import dist, inf, sqrt
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.robot import Joint, Pose
-from urdfkit.description.xml.source import Position
+from urdfkit.description.xml.source import Position, Span
+from urdfkit.lint.facts.root_cause import argument_of_coordinate, written_at_call
 from urdfkit.lint.model.placement import Extent, Frame, offset_of, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -180,7 +181,11 @@ class OriginTooFar(RobotRule):
         message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
         message += "all other moving joints are at their parent links"
         help = "check the axes, signs and units of the origin"
-        yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+        place = _argument(joint, moving, model)
+        if place is not None:
+            yield self.at_span(place, message, joint=joint.name, help=help, kind="argument")
+        else:
+            yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
 
     def _mirrored(self, model: Model, gaps: list[tuple[float, Joint, float]]) -> Findings:
         """Yield a finding for the only moving joint that would be at its parent link with another sign."""
@@ -202,6 +207,28 @@ class OriginTooFar(RobotRule):
         help = "check the signs of the origin and of the shapes of the parent link"
         origin = joint.element.find("origin") or joint.element
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+
+def _argument(joint: Joint, moving: list[Joint], model: Model) -> Span | None:
+    """Return the argument that places a joint outside of its parent link, if it is inside for another macro call.
+
+    The argument is at the macro call, or at the property that the call hands on.
+    """
+    origin, excess = joint.element.find("origin"), _excess(joint, model)
+    k = excess.index(max(excess))
+    for other in moving:
+        right = other.element.find("origin")
+        is_alike = right is not None and origin is not None and right.origin.position == origin.origin.position
+        if origin is not None and right is not None and is_alike and _excess(other, model)[k] <= 0.0:
+            place = argument_of_coordinate(model, origin, right, k)
+            return written_at_call(model, place, origin.origin.expansions[1:]) if place is not None else None
+    return None
+
+
+def _excess(joint: Joint, model: Model) -> list[float]:
+    """Return the distance of a joint from the box of its parent link along each axis [m]; negative inside of it."""
+    parent = model.extents[joint.parent or ""]
+    return [max(low - at, at - high) for at, low, high in zip(joint.origin.xyz, parent.low, parent.high, strict=True)]
 
 
 def _is_carried(joint: Joint, model: Model) -> bool:

@@ -1,6 +1,7 @@
 """S917 joint-contradicts-name."""
 
 import re
+from itertools import product
 
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.element import Element
@@ -28,6 +29,9 @@ _OTHER = re.compile(
 )
 """Names of parts that may have any direction at zero: hands (also with numbered fingers), arms, blades, mechanisms."""
 
+_BELOW = 0.1
+"""Largest part of the height of a hanging part that is above its joint."""
+
 _ALONG, _ACROSS = 0.9, 0.2
 """Cosine of the angle to the vertical: at least the first for vertical axes, at most the second for horizontal ones."""
 
@@ -40,8 +44,9 @@ class JointContradictsName(RobotRule):
 
     - A ``slide``, ``prismatic``, ``telescope``, ``elevator``, ``linear``, ``rail`` or ``carriage`` joint does not
       rotate.
-    - A prismatic ``lift``, ``elevator`` or ``fork`` moves vertically, and upwards if all its positions are positive. A
-      revolute ``lift``, ``elevator`` or ``fork`` does not have a vertical axis.
+    - A prismatic ``lift``, ``elevator`` or ``fork`` moves vertically, and upwards if all its positions are positive,
+      unless its child hangs below the joint. A revolute ``lift``, ``elevator`` or ``fork`` does not have a vertical
+      axis.
     - ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``, ``pitch`` and ``knee``
       joints do not.
 
@@ -94,7 +99,7 @@ class JointContradictsName(RobotRule):
             if fault is not None:
                 message, element, attribute = fault
                 help = "check <axis> and the rpy of <origin>, or correct the name"
-                names = (joint.parent,) if joint.parent else ()
+                names = tuple(name for name in (joint.parent, joint.child) if name)
                 yield self.at(model, element, message, attribute=attribute, joint=joint.name, help=help, names=names)
 
 
@@ -122,6 +127,17 @@ def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:
         return f"joint `{joint.name}` slides horizontally, so it cannot lift", element, "xyz"
     limit = joint.limit
     is_upward = limit is not None and limit.lower is not None and limit.lower >= 0.0 and (limit.upper or 0.0) > 0.0
-    if lifts is not None and joint.type == "prismatic" and axis[2] < -_ALONG and is_upward:
+    slides_down = joint.type == "prismatic" and axis[2] < -_ALONG and is_upward
+    if lifts is not None and slides_down and not _hangs(joint, model):
         return f"joint `{joint.name}` slides down at positive positions, so it cannot lift", element, "xyz"
     return None
+
+
+def _hangs(joint: Joint, model: Model) -> bool:
+    """Return whether all shapes of the child of a joint are below the joint, such as a mast that hangs from a rail."""
+    frame, extent = model.frames.get(joint.child or ""), model.extents.get(joint.child or "")
+    if frame is None or extent is None:
+        return False
+    corners = product(*zip(extent.low, extent.high, strict=True))
+    heights = [sum(a * b for a, b in zip(frame.rotation[2], corner, strict=True)) for corner in corners]
+    return max(heights) < _BELOW * (max(heights) - min(heights))
