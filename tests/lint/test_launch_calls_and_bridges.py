@@ -86,6 +86,34 @@ def test_a_wrong_command_of_ros2_control_is_reported(tmp_path, old, new, line, m
         assert [(at, words.partition(";")[0]) for _, at, words in listed] == expected
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["load_controller", "--set-state=active"],
+        [
+            "load_controller",
+            "--controller-manager=/manager",
+            "--set",
+            "active",
+            "NAME",
+            "--ros-args",
+            "--remap",
+            "a:=b",
+        ],
+        ["load_controller", "NAME", "--no-daemon"],
+        *([f"{name}_controller"] for name in ("configure", "load_start", "load_configure", "configure_start")),
+        ["view_hardware_status"],
+        ["load_controller", "active", "--set-state"],
+    ],
+)
+def test_a_right_command_of_ros2_control_is_not_reported(tmp_path, command):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "ros_gz_sim", "ros2controlcli")
+    text = CONTROL.replace('"load_controller", "--set-state", "active"', ", ".join(f'"{word}"' for word in command))
+    assert text != CONTROL
+    write(cart / "launch/cart.launch.py", text)
+    assert not found(cart, "L106")
+
+
 BRIDGES = """
 from launch import LaunchDescription
 from launch.actions import IncludeLaunchDescription

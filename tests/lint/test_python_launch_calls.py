@@ -73,6 +73,7 @@ MISTAKES = [
     ("    return nodes", "", "name=mode", "the function `more` of an OpaqueFunction does not return its actions"),
     ("value_type=str", 'value_type="str"', "value_type", "`value_type` is a text; write a type, such as `str`"),
     ("remappings=common", "remappings=[common]", "remappings", "an item of `remappings` is a list of pairs"),
+    ("remappings=common", 'remappings=[["joy", "cart/joy"]]', "remappings", "is a list; write a tuple, ("),
     ("target_action=joy, on_exit=[home]", "joy, [home]", "OnProcessExit(joy", "write `target_action=` before it"),
     ("TRANSITION_CONFIGURE", "TRANSITION_CONFIG", "TRANSITION_CONFIG", "`Transition` has no `TRANSITION_CONFIG`"),
     ("TRANSITION_ACTIVATE", "TRANSITION_CONFIGURE", "matches_action(driver), ", "does not accept `CONFIGURE`"),
@@ -90,6 +91,23 @@ def test_a_wrong_call_is_reported_at_its_line(tmp_path, old, new, place, words):
     line = wrong[: wrong.index(place)].count("\n") + 1
     assert [each.line for each in lint(cart) if each.code in ("L105", "L106") and words in each.text] == [line]
     write(cart / "launch/cart.launch.py", LAUNCH)
+    assert not [each for each in lint(cart) if each.code in ("L105", "L106")]
+
+
+TIMER = """activate, TimerAction(period=9.0, actions=[EmitEvent(event=ChangeState(
+        lifecycle_node_matcher=launch.events.matches_action(driver),
+        transition_id=Transition.TRANSITION_DEACTIVATE))])"""
+RIGHT = [
+    ("entities=[activate]", f"entities=[{TIMER}]"),
+    ("entities=[activate]", f"entities=[{TIMER.replace('TimerAction(period=9.0, actions=[', '').removesuffix('])')}]"),
+]
+
+
+@pytest.mark.parametrize(("old", "new"), RIGHT)
+def test_a_right_call_is_not_reported(tmp_path, old, new):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "joy", "urg_node", "tf2_ros", "lifecycle_msgs")
+    assert LAUNCH.count(old) == 1
+    write(cart / "launch/cart.launch.py", LAUNCH.replace(old, new))
     assert not [each for each in lint(cart) if each.code in ("L105", "L106")]
 
 

@@ -73,8 +73,11 @@ _TRANSITIONS_FROM = {
 def _next_transition(state: str, words: dict[str, ast.expr], reader: LaunchReader) -> Defects:
     """Yield the transition of a node that a handler requests although the state just reached does not accept it."""
     accepted, target = _TRANSITIONS_FROM.get(state, "").split(), words.get("target_lifecycle_node")
-    items = [reader.assigned.get(getattr(item, "id", "")) or item for item in reader.items(words.get("entities"))]
-    calls = [each for item in items for each in ast.walk(item)]
+    items = [_value(item, reader) for item in reader.items(words.get("entities"))]
+    emitted = [_of_event(item) for item in items if isinstance(item, ast.Call) and name_of(item.func) == "EmitEvent"]
+    calls = [_value(event, reader) for event in emitted if event is not None]
+    if len(calls) != 1:
+        return  # a second event reaches the node in another state
     for call in (each for each in calls if isinstance(each, ast.Call) and name_of(each.func) == "ChangeState"):
         parts = {word.arg: word.value for word in call.keywords}
         chosen, matched = parts.get("transition_id"), parts.get("lifecycle_node_matcher")
@@ -83,3 +86,12 @@ def _next_transition(state: str, words: dict[str, ast.expr], reader: LaunchReade
         is_same = isinstance(target, ast.Name) and target.id in nodes
         if chosen is not None and accepted and is_same and name in _CALLBACKS and name not in accepted:
             yield chosen, f"a node in the state `{state}` does not accept `{name}`; write `TRANSITION_{accepted[0]}`"
+
+
+def _value(node: ast.expr, reader: LaunchReader) -> ast.expr:
+    return (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
+
+
+def _of_event(call: ast.Call) -> ast.expr | None:
+    """Return the event of an EmitEvent; None without one, for example after ``**``."""
+    return next((word.value for word in call.keywords if word.arg == "event"), None)

@@ -14,8 +14,8 @@ from collections.abc import Iterable, Iterator
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import did_you_mean
 from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.control_commands import control_command
 from urdfkit.lint.facts.launch.python_api import incomplete_call
 from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
 from urdfkit.lint.facts.lifecycle_transitions import unknown_constant, wrong_transition
@@ -116,7 +116,7 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     elif kind in _NODES:
         yield from _node(words, kind, reader)
     elif kind == "ExecuteProcess":
-        yield from _control_command(reader.items(words.get("cmd")), reader)
+        yield from control_command(reader.items(words.get("cmd")), reader)
     elif kind in ("TimerAction", "GroupAction"):
         actions = words.get("actions") or (call.args[0] if kind == "GroupAction" and call.args else None)
         if actions is not None and _called(actions, reader) in _ACTIONS:
@@ -128,31 +128,6 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
             yield call.args[1], "`LaunchDescription` accepts one list of actions; join the lists with `+`"
         elif call.args and _called(call.args[0], reader) in _ACTIONS:
             yield call.args[0], "the argument of `LaunchDescription` is not a list; write it in brackets"
-
-
-_OF_CONTROL = """
-cleanup_controller list_controller_types list_controllers list_hardware_components list_hardware_interfaces
-load_controller reload_controller_libraries set_controller_state set_hardware_component_state switch_controllers
-unload_controller view_controller_chains
-"""
-"""Commands of ``ros2 control`` (ros2controlcli, Foxy to Rolling)."""
-
-_OF_LOADING = ("--set-state", "--controller-manager", "-c", "--spin-time", "--use-sim-time", "--include-hidden-nodes")
-_STATES = ("active", "inactive", "configured", "configure", "start")
-
-
-def _control_command(words: list[ast.expr], reader: LaunchReader) -> Defects:
-    """Yield an unknown command, option or state in a call of ``ros2 control``."""
-    texts = [reader.text(each) or "" for each in words]
-    if texts[:2] != ["ros2", "control"] or len(texts) < 3 or not texts[2]:
-        return
-    if texts[2] not in _OF_CONTROL.split():
-        yield words[2], f"`ros2 control` has no command `{texts[2]}`" + did_you_mean(texts[2], _OF_CONTROL.split())
-    for at, (word, text) in enumerate(zip(words, texts, strict=True)):
-        if texts[2] == "load_controller" and text.startswith("--") and text not in _OF_LOADING:
-            yield word, f"`load_controller` has no option `{text}`" + did_you_mean(text, _OF_LOADING)
-        elif texts[at - 1] == "--set-state" and text and text not in _STATES:
-            yield word, f"unknown state `{text}` of a controller" + did_you_mean(text, _STATES)
 
 
 _SUBSTITUTIONS = (
@@ -242,7 +217,10 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
             yield item, "an item of `arguments` is not a string; write it in quotes"
     remappings = words.get("remappings")
     for item in remappings.elts if isinstance(remappings, ast.List) else ():
-        if isinstance(_value(item, reader), ast.List):
+        value = _value(item, reader)
+        if isinstance(value, ast.List) and len(value.elts) == 2 and all(_is_text(each) for each in value.elts):
+            yield item, 'an item of `remappings` is a list; write a tuple, ("from", "to")'
+        elif isinstance(value, ast.List):
             yield item, "an item of `remappings` is a list of pairs; add the lists, or write `*` before this one"
     pairs = reader.items(remappings) if remappings is not None else []
     if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
