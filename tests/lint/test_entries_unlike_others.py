@@ -93,3 +93,11 @@ def test_the_time_grows_with_the_size_of_the_file():
         return process_time() - start
 
     assert time_of(400) < 12.0 * max(time_of(100), 0.05)
+
+
+def test_the_time_does_not_grow_with_the_number_of_words_in_a_name():
+    names = ["base_link"] * 4 + ["a_" * 28 + "?"]
+    text = "n:\n  ros__parameters:\n" + "".join(f"    s{i}: {{frame: {name}}}\n" for i, name in enumerate(names))
+    start = process_time()
+    assert not list(odd_entries(Source("config/a.yaml", text)))
+    assert process_time() - start < 2.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
 
 from tests.lint.test_build_files import MANIFEST, found, write
@@ -113,6 +115,17 @@ def test_messages_and_targets_of_ros2(tmp_path, monkeypatch, file, old, new, exp
     assert text.count(old) == 1
     write(tmp_path, {file: text.replace(old, new)})
     assert found(tmp_path) == expected
+
+
+def test_names_of_fields_are_read_in_linear_time(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name = "a" * 31 + "X"
+    write(tmp_path, {**FILES, "msg/Load.msg": f"std_msgs/Header header\nfloat64 {name}\n"})
+    start = process_time()
+    assert found(tmp_path) == [
+        f"msg/Load.msg:2: invalid name `{name}` of a field; ROS 2 needs lower case; did you mean `{'a' * 31}_x`?"
+    ]
+    assert process_time() - start < 3.0
 
 
 CATKIN = """cmake_minimum_required(VERSION 3.0.2)

@@ -25,7 +25,7 @@ _MAX_DEPTH = 3
 _SHORTEST = 4
 """Smallest number of letters of a name that is compared."""
 
-_PARTS = r"[A-Za-z][\w.-]*(?:[_/:][\w.-]+)+"
+_PARTS = r"(?=.*[_/:][\w.-])[A-Za-z][\w.-]*(?:[/:][\w.-]+)*"
 """Matches names with several words; single words such as `heating` and `heading` are often different values."""
 
 _MOST_UNLIKE = 4
