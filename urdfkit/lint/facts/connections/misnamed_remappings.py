@@ -90,7 +90,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                     old,
                     f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names",
                 )
-        for old, message in _swapped(node):
+        for old, message in _swapped(node, files):
             if (node.source.file, old.start) not in seen | shared:  # several nodes can have one list of remappings
                 seen.add((node.source.file, old.start))
                 yield node.source, old, message
@@ -105,11 +105,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
         for old, new in node.remappings:
             name = old.name.removeprefix("~").strip("/")
             is_moved = "/" in name and name.rpartition("/")[2] in accepted and new.name.strip("/") not in names
-            texts = [_settings(node, files[file]) if file in files else name for file in node.files]
-            is_read = any(
-                re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", re.sub(_OF_FRAME, "", text)) for text in texts
-            )
-            if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or is_read:
+            if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or _is_parameter(node, name, files):
                 continue
             left = [each for each in names if each not in written]
             near = new.name if new.name in left else nearest(name, left, cutoff=0.6)
@@ -134,6 +130,15 @@ def _undescribed(nodes: list[LaunchedNode], model: Model) -> Iterator[tuple[Sour
             yield node.source, new, f"no other file names `{name}`, so `{node.program}` is without a description"
 
 
+def _is_parameter(node: LaunchedNode, name: str, files: dict[tuple[str, str], Source]) -> bool:
+    """Return whether a topic is the value of a parameter, in a file of the node or in the launch file."""
+    inline = rf"(?::\s*(?:\[[^\]]*)?|\bvalue\s*=\s*)[\"']/?{re.escape(name)}[\"']"
+    if re.search(inline, node.source.text):
+        return True
+    texts = [_settings(node, files[file]) if file in files else name for file in node.files]
+    return any(re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", re.sub(_OF_FRAME, "", text)) for text in texts)
+
+
 def _settings(node: LaunchedNode, file: Source) -> str:
     """Return the text of the sections of a node in its parameter file; the whole text if none has its name."""
     own = [group for key, group in sections(file) if node.name is not None and key.last_name == node.name.name]
@@ -148,12 +153,13 @@ def _values(key: Node, value: Node) -> tuple[Node, ...]:
     return (value, *value.items) if not re.search(r"frame(?:_id)?$", key.text) else ()
 
 
-def _swapped(node: LaunchedNode) -> Iterator[tuple[Named, str]]:
+def _swapped(node: LaunchedNode, files: dict[tuple[str, str], Source]) -> Iterator[tuple[Named, str]]:
     """Yield the remappings of a well-known node whose new name is a topic of the node, and whose old name is not."""
     if node.package in _NAMES or f"{node.package}/{node.program}" in _NAMES or node.package in _OF_ROS1:
         return
     for old, new in node.remappings:
-        if new.name.strip("/") in _own_topics(node) and not _is_own(node, old):
+        is_own = _is_own(node, old) or _is_parameter(node, old.name.strip("/"), files)
+        if new.name.strip("/") in _own_topics(node) and not is_own:
             yield old, f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names"
 
 

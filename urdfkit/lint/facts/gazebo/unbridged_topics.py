@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 
 from urdfkit.description.launch.launch_scope import LaunchContents
+from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.connections.controller_managers import WITHOUT_MANAGER
@@ -19,6 +20,9 @@ from urdfkit.lint.model.model import Model
 
 _USED = r"use_sim_time[\"']?\s*(?::|,|\"\s+value=|\"\s+default=|,\s*default_value=)\s*[\"']?[Tt]rue"
 """Matches a parameter or argument with which nodes use the time of the simulation."""
+
+_SIMULATION = r"\bgz_sim\b|\bros_gz_sim\.launch|\bgz_server\b|\bgzserver\b|\b(?:gz|ign)\W+(?:sim|gazebo)\b"
+"""Matches a launch file that starts Gazebo; packages that spawn a robot can join a simulation of another launch."""
 
 _JOINTS = r"[Jj]oint_?[Ss]tate|ros2_control|controller_manager"
 
@@ -33,12 +37,18 @@ def unbridged(bridges: Sequence[tuple[Source, Bridged]], model: Model) -> Iterat
         own = [(source, each.topic) for source, each in bridges if each.topic is not None and source.file in names]
         own.sort(key=lambda each: (each[0].file, each[1].start))
         is_open = any(package not in WITHOUT_MANAGER for package, _ in tree.outside)
-        if len(own) < 2 or is_open or "ros_gz_sim" not in text or (own[0][0].file, own[0][1].start) in seen:
+        if len(own) < 2 or is_open or (own[0][0].file, own[0][1].start) in seen:
             continue
+        listed = {source.file for source, _ in own if not source.file.endswith(LAUNCH)}
+        if text.count("config_file") > len(listed) or re.search(_SIMULATION, text) is None:
+            continue  # the file of a bridge is computed, or the simulation is another launch
         seen.add((own[0][0].file, own[0][1].start))
-        if re.search(_USED, text) and not re.search(r"(?<!gz_)\bclock\b", text):
+        others = [source for source in model.related_files.values() if source.file not in names]
+        elsewhere = "\n".join(each.text for each in others if each.file.endswith((*LAUNCH, ".yaml", ".yml")))
+        if re.search(_USED, text) and not re.search(r"(?<!gz_)\bclock\b", f"{text}\n{elsewhere}"):
             yield *own[0], "no bridge has the topic `clock`, so the time of nodes with `use_sim_time` stays at zero"
-        if publishes and "robot_state_publisher" in tree.started and not re.search(_JOINTS, text):
+        has_joints = re.search(_JOINTS, text) or re.search(r"JointState\b", elsewhere)
+        if publishes and "robot_state_publisher" in tree.started and not has_joints:
             yield *own[0], "no bridge has the joint states of the robot, which robot_state_publisher needs"
 
 

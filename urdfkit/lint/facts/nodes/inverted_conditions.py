@@ -69,13 +69,17 @@ def _by_name(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
 _SLIDERS = {"joint_state_publisher_gui": True, "joint_state_publisher": False}
 """Program → whether it has a user interface; a robot needs one of them."""
 
+_SEPARATED = r"namespace|\bns\s*=|joint_states|source_list"
+"""Matches launch files whose publishers of joint states can have separate topics."""
+
 
 def _both_sliders(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
     """Yield the second publisher of joint states that starts under the condition of the first one."""
     for file, source in model.related_files.items():
-        found = list(conditional_actions(source)) if file.endswith(LAUNCH) and "joint_state_pub" in source.text else []
+        is_one_robot = file.endswith(LAUNCH) and not re.search(_SEPARATED, source.text)
+        found = list(conditional_actions(source)) if is_one_robot and "joint_state_pub" in source.text else []
         own = [(each, each.subjects[0][1]) for each in found if len(each.subjects) == 1]
-        own = [(each, program) for each, program in own if program in _SLIDERS]
+        own = [(each, program) for each, program in own if program in _SLIDERS and "gui" in each.argument.lower()]
         if len(own) == 2 and own[0][1] != own[1][1] and len({(each.argument, each.value) for each, _ in own}) == 1:
             has_interface = not own[0][0].value  # `gui` must start the publisher with the sliders
             wrong = next((each for each, program in own if _SLIDERS[program] is has_interface), own[1][0])

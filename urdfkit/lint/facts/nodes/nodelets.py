@@ -62,6 +62,8 @@ def unmanaged_nodelets(model: Model) -> Iterator[tuple[Source, Named, str]]:
             listed = [word.name if word is not None else "" for word in node.arguments]
             if node.package != "nodelet" or len(listed) < 3 or listed[0] != "load" or node.arguments[2] is None:
                 continue
+            if ")" in listed[2]:  # the end of a substitution, such as $(arg class)
+                continue
             manager = node.arguments[2]
             name = manager.name.rpartition("/")[2]
             if name not in names and not words.names(name, [(source.file, manager.start)]):

@@ -119,7 +119,7 @@ class LaunchValueInvalid(RobotRule):
 
 
 _TYPES = {
-    1: ("str", "int", "double", "bool", "yaml", "auto", "string"),
+    1: ("str", "int", "double", "bool", "yaml", "auto", "string", "boolean"),
     2: tuple(f"{before}{name}" for before in ("", "list_of_") for name in ("str", "int", "float", "bool")),
 }
 """Version of ROS → types of parameters (roslaunch 1.17, launch_frontend of Humble to Rolling)."""
@@ -156,7 +156,8 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
     elif version == 1 and tag.name == "param":
         yield from _parameter(attributes, model, defaults)
     type = attributes.get("type") if tag.name == "param" else None
-    if type is not None and "$(" not in type.value and type.value not in _TYPES[version]:
+    written = type.value.strip().lower() if type is not None and version == 1 else type.value if type else ""
+    if type is not None and "$(" not in type.value and written not in _TYPES[version]:
         near = _SYNONYMS.get(type.value) or nearest(type.value, _TYPES[version])
         yield (
             type,
@@ -202,7 +203,7 @@ def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterat
 def _parameter(
     attributes: dict[str, Attribute], model: Model, defaults: dict[str, str]
 ) -> Iterator[tuple[Attribute, str]]:
-    value, kind = attributes.get("value"), attributes["type"].value if "type" in attributes else "auto"
+    value, kind = attributes.get("value"), attributes["type"].value.strip().lower() if "type" in attributes else "auto"
     if value is not None and "$(" not in value.value and not _is_of_type(value.value, kind):
         yield value, f"`{value.value}` is no value of type `{kind}`, so roslaunch stops"
     for name in ("value", "textfile", "command"):
@@ -219,18 +220,15 @@ def _parameter(
             yield attribute, '`textfile` loads xacro without expanding it; use `command="xacro …"`'
 
 
-_NUMBERS = {
-    "int": r"[-+]?(?:0[xX][0-9a-fA-F]+|\d+)",
-    "double": r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|nan|[-+]?inf",
-}
-"""Type of a parameter of ROS 1 → pattern of its values (roslaunch, loader.py)."""
-
-
 def _is_of_type(text: str, kind: str) -> bool:
-    """Return whether roslaunch converts a text to a type."""
-    if kind == "bool":
+    """Return whether roslaunch converts a text to a type (roslaunch, loader.py: ``int(value)``, ``float(value)``)."""
+    if kind in ("bool", "boolean"):
         return text.strip().lower() in _TRUTH
-    return kind not in _NUMBERS or re.fullmatch(_NUMBERS[kind], text.strip()) is not None
+    try:
+        {"int": int, "double": float}.get(kind, str)(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _default(text: str, defaults: dict[str, str]) -> str:

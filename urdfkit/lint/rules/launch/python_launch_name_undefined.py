@@ -72,10 +72,8 @@ class PythonLaunchNameUndefined(RobotRule):
                 end = min(end, start + len(source.text[start:end].partition("\n")[0]))
                 yield self.at_span(source.span(start, end), message, help="write `return` and the LaunchDescription")
             elif not any(_ends(node) for node in own_nodes(function)) and function.name in _opaque(tree):
-                inner = list(own_nodes(function))
-                lists = [node for node in inner if isinstance(node, ast.Expr) and _has_actions(node)]
-                starts = any(isinstance(node, ast.Call) and name_of(node.func) in _STARTING for node in inner)
-                for node in lists[:1] or function.body[-1:] if starts or lists else ():
+                lists = [node for node in own_nodes(function) if isinstance(node, ast.Expr) and _has_actions(node)]
+                for node in lists[:1] or function.body[-1:] if lists or _drops_actions(function) else ():
                     start, end = place(source, node)
                     end = min(end, start + len(source.text[start:end].partition("\n")[0]))
                     message = f"the function `{function.name}` of an OpaqueFunction does not return its actions"
@@ -89,8 +87,39 @@ def _is_description(node: ast.AST) -> bool:
 
 
 def _has_actions(node: ast.Expr) -> bool:
-    """Return whether a statement is a list of calls that no code uses, or a list of names."""
-    return isinstance(node.value, (ast.List, ast.Tuple)) and bool(node.value.elts)
+    """Return whether a statement is a list of actions or names, which no code uses."""
+    items = node.value.elts if isinstance(node.value, (ast.List, ast.Tuple)) else []
+    return bool(items) and all(isinstance(each, ast.Name) or _starts(each) for each in items)
+
+
+def _drops_actions(function: ast.FunctionDef) -> bool:
+    """Return whether a function creates an action that no code uses; not if a call or the caller can receive it."""
+    from collections import Counter
+
+    from urdfkit.lint.facts.launch.python_names import own_nodes
+
+    inner = list(own_nodes(function))
+    if any(isinstance(node, (ast.Yield, ast.YieldFrom, ast.Global, ast.Nonlocal)) for node in inner):
+        return False
+    names = [node for node in ast.walk(function) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)]
+    reads = Counter(node.id for node in names)
+    values = [node.value for node in inner if isinstance(node, ast.Expr)]
+    for node in (each for each in inner if isinstance(each, ast.Assign)):
+        if all(isinstance(target, ast.Name) and not reads[target.id] for target in node.targets):
+            values.append(node.value)
+    items = [each for value in values for each in (value.elts if isinstance(value, (ast.List, ast.Tuple)) else [value])]
+    created = {
+        target.id
+        for node in inner
+        if isinstance(node, ast.Assign) and _starts(node.value)
+        for target in node.targets
+        if isinstance(target, ast.Name) and reads[target.id] == 1
+    }
+    return any(_starts(each) or (isinstance(each, ast.Name) and each.id in created) for each in items)
+
+
+def _starts(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and name_of(node.func) in _STARTING
 
 
 def _opaque(tree: ast.Module) -> set[str]:
