@@ -138,3 +138,24 @@ def test_the_manager_of_a_nodelet_with_a_computed_class_is_the_last_word(tmp_pat
     for words, count in (("load $(arg class) mgr", 0), ("load a/b mgrr", 1)):
         write(cart / "launch/cart.launch", text + node.format("first", words) + "</launch>")
         assert len([each for each in lint(cart) if each.code == "L117"]) == count
+
+
+CHILD = 'Node(package="joy", executable="joy_node", namespace=LaunchConfiguration("prefix"))'
+PARENT = 'DeclareLaunchArgument("prefix"), '
+INCLUDE = 'IncludeLaunchDescription(PathJoinSubstitution([FindPackageShare("cart"), "launch", "child.launch.py"]))'
+
+
+@pytest.mark.parametrize(
+    ("child", "parent", "count"),
+    [
+        (CHILD, "", 0),  # a launch file of another package can include it
+        (CHILD, PARENT + INCLUDE, 0),
+        (CHILD, PARENT, 1),
+        ('DeclareLaunchArgument("name"), ' + CHILD, "", 1),
+    ],
+)
+def test_a_launch_file_without_arguments_inherits_those_of_its_parent(tmp_path, child, parent, count):
+    cart = package(tmp_path / "cart", "ament_cmake", "launch_ros", "joy")
+    write(cart / "launch/child.launch.py", HEAD + LIST.format(child))
+    write(cart / "launch/parent.launch.py", HEAD + LIST.format(parent))
+    assert len([each for each in lint(cart) if each.code == "L101"]) == count

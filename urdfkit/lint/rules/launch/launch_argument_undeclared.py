@@ -19,7 +19,7 @@ class LaunchArgumentUndeclared(RobotRule):
     2, a launch file can also use the arguments of other launch files. There, a name is reported only if no launch file
     of these packages declares it, and if it is misspelt or no launch file outside of these packages can declare it. A
     name is reported as a warning if other launch files declare or pass it, but neither the file nor its included files
-    declare it.
+    declare it. A file without declared arguments can inherit them from a file that includes it.
 
     ## Why is this bad?
     The launch fails with "requires the 'model' arg to be set" or "launch configuration 'model' does not exist". With a
@@ -73,7 +73,7 @@ class LaunchArgumentUndeclared(RobotRule):
             receiver(call, model) is not None or (call.package, call.path.rpartition("/")[2]) in OUTSIDE
             for call in file.includes
         )
-        is_certain = are_found and not has_default and not is_elsewhere
+        is_certain = are_found and not has_default and not is_elsewhere and bool(file.declared)
         is_certain &= not file.imports_code
         if near is None and not file.is_ros1 and not is_certain:
             if is_elsewhere and are_found and not has_default and not file.imports_code:
@@ -89,7 +89,7 @@ class LaunchArgumentUndeclared(RobotRule):
             hint = Suggestion(near, use.name)
             message = f"launch argument `{use.name}` is not declared" + hint
         span = file.source.span(place.start, place.end)
-        severity = "warning" if has_default or not file.declared else self.severity
+        severity = "warning" if has_default else self.severity
         yield self.at_span(span, message, severity=severity)
 
     def _inherited(self, file: LaunchActions, use: Named, model: Model) -> Findings:
@@ -103,6 +103,8 @@ class LaunchArgumentUndeclared(RobotRule):
         included = [each for each in included if each.source.file.rpartition("/")[2] not in passing]  # evaluated before
         if any(each.is_computed or use.name in {*each.declared, *each.assigned} for each in included):
             return
+        if not file.declared and _is_passed_down(file, use.name, model):
+            return
         span = file.source.span(use.start, use.end)
         message = f"launch argument `{use.name}` is not declared; the file fails unless an including file declares it"
         unused = _unused(file, use.name, model)
@@ -114,6 +116,18 @@ class LaunchArgumentUndeclared(RobotRule):
             yield self.at_span(span, message, severity="warning", help=help, **details)
             return
         yield self.at_span(span, message, severity="warning", help="declare the argument, with a default")
+
+
+def _is_passed_down(file: LaunchActions, name: str, model: Model) -> bool:
+    """Return whether a launch file that includes another one gives it an argument."""
+    from urdfkit.lint.facts.launch.receivers import included_files
+
+    for other in (each for each in launch_files(model) if each.includes):
+        passed = {word.name for call in other.includes for word in call.passed}
+        included = included_files(other, model) if name in {*other.declared, *other.assigned, *passed} else ()
+        if any(each is not None and each.source.file == file.source.file for each in included):
+            return True
+    return False
 
 
 def _unused(file: LaunchActions, name: str, model: Model) -> Named | None:
