@@ -176,3 +176,74 @@ def test_the_only_missing_pair_of_adjacent_links_is_reported(pairs: str, expecte
     (tmp_path / "limb.srdf").write_text(f'<robot name="limb">{group}{disabled}</robot>')
     found = [f"{one.code} {one.message}" for one in lint(tmp_path / "limb.urdf") if one.code.startswith("M")]
     assert found == expected
+
+
+TWO = ROBOT.replace(
+    "<ros2_control",
+    """<link name="tip"/>
+  <joint name="wrist" type="revolute">
+    <parent link="hand"/><child link="tip"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>{mimic}
+  </joint>
+  <ros2_control""",
+).replace(
+    "</ros2_control>",
+    """<joint name="wrist">{command}<state_interface name="position"/></joint>
+  </ros2_control>""",
+)
+SRDF = """<robot name="arm">
+  <group name="arm"><joint name="elbow"/></group>
+</robot>
+"""
+MOVEIT = """moveit_simple_controller_manager:
+  controller_names: [arm_controller]
+  arm_controller:
+    type: FollowJointTrajectory
+    action_ns: follow_joint_trajectory
+    joints: {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("mimic", "joints", "moved", "constraints", "code", "line"),
+    [
+        ("", "[elbow, wrist]", "[elbow, wrist]", "{wrist: {goal: 0.1}}", None, 0),
+        ("", "[elbow]", "[elbow, wrist]", "{wrist: {goal: 0.1}}", "K976", 7),
+        ("", "[elbow]", "[elbow]", "{wrist: {goal: 0.1}}", "K976", 10),
+        ("elbow", "[elbow]", "[elbow]", "{elbow: {goal: 0.1}}", None, 0),
+        ("elbow", "[elbow, wrist]", "[elbow]", "{elbow: {goal: 0.1}}", "K965", 7),
+    ],
+    ids=["right", "left out", "too much", "mimic", "mimic listed"],
+)
+def test_a_list_of_joints_that_the_other_files_contradict_has_one_finding(
+    tmp_path, mimic, joints, moved, constraints, code, line
+):
+    package = tmp_path / "arm_description"
+    (package / "config").mkdir(parents=True)
+    (package / "package.xml").write_text(MANIFEST.format(depends=""))
+    command = "" if mimic else '<command_interface name="position"/>'
+    element = f'<mimic joint="{mimic}"/>' if mimic else ""
+    (package / "arm.urdf").write_text(TWO.format(mimic=element, command=command))
+    text = YAML.format(interface="position").replace("[elbow]", joints) + f"    constraints: {constraints}\n"
+    (package / "config" / "controllers.yaml").write_text(text)
+    (package / "config" / "arm.srdf").write_text(SRDF)
+    (package / "config" / "moveit_controllers.yaml").write_text(MOVEIT.format(moved))
+    found = [(one.code, one.line) for one in lint(package) if one.code in ("K965", "K976", "M112")]
+    assert found == ([(code, line)] if code else [])
+
+
+def test_the_texts_on_a_list_of_joints(tmp_path):
+    package = tmp_path / "arm_description"
+    (package / "config").mkdir(parents=True)
+    (package / "package.xml").write_text(MANIFEST.format(depends=""))
+    (package / "config" / "arm.srdf").write_text(SRDF)
+    (package / "config" / "moveit_controllers.yaml").write_text(MOVEIT.format("[elbow, wrist]"))
+    text = YAML.format(interface="position")
+    (package / "arm.urdf").write_text(TWO.format(mimic="", command='<command_interface name="position"/>'))
+    (package / "config" / "controllers.yaml").write_text(text + "    constraints: {wrist: {goal: 0.1}}\n")
+    [found] = lint(package, select=("K976", "M112"))
+    assert found.message == "`joints` of `arm_controller` lacks `wrist`, which its other settings and MoveIt have"
+    (package / "arm.urdf").write_text(TWO.format(mimic='<mimic joint="elbow"/>', command=""))
+    (package / "config" / "controllers.yaml").write_text(text.replace("[elbow]", "[elbow, wrist]"))
+    [found] = lint(package, select=("K965",))
+    assert found.help == "remove `wrist`, which follows another joint"

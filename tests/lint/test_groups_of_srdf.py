@@ -49,6 +49,33 @@ def test_a_group_without_the_joints_of_the_group_in_its_name(tmp_path):
     assert found(tmp_path, SRDF.replace('base_link="l0"', 'base_link="l1"')) == [("M105", 5, message)]
 
 
+def test_a_state_of_a_group_that_repeats_another_one_is_not_reported_too(tmp_path):
+    srdf = SRDF.replace('base_link="l0"', 'base_link="l1"').replace(
+        'name="home" group="arm"', 'name="h" group="arm_lift"'
+    )
+    findings = found(tmp_path, srdf.replace('<joint name="j2" value="0"/>', '<joint name="j1" value="0"/>'))
+    assert [code for code, _, _ in findings] == ["M105"]
+
+
+def test_a_reason_and_a_group_that_contradict_a_parent_are_one_finding_there(tmp_path):
+    pair = '<disable_collisions link1="l0" link2="l2" reason="Never"/></robot>'
+    group = '<chain base_link="l0" tip_link="l3"/>'
+    state = '<joint name="j1" value="0"/>'
+    srdf = (
+        SRDF.replace("</robot>", pair)
+        .replace('group="arm">', 'group="arm_lift">')
+        .replace('<joint name="j2"', state + '<joint name="j2"')
+    )
+    assert group in srdf
+    (tmp_path / "config").mkdir()
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "arm.urdf").write_text(ROBOT.replace('parent link="l1"', 'parent link="l0"'))
+    (tmp_path / "config" / "arm.srdf").write_text(srdf)
+    [found] = lint(tmp_path, select=("M102", "M107"))
+    line = next(n for n, text in enumerate(ROBOT.splitlines(), 1) if 'parent link="l1"' in text)
+    assert (found.file.rpartition("/")[2], found.line, len(found.related)) == ("arm.urdf", line, 2)
+
+
 def test_a_projection_over_joints_of_another_group(tmp_path):
     message = "joint `j1` of `projection_evaluator` is not in group `arm`"
     assert found(tmp_path, ompl=OMPL.replace("j2", "j1")) == [("M109", 3, message)]

@@ -349,6 +349,15 @@ MISTAKES = [
         6,
         "of `MPPI",
     ),
+    (
+        ROS2,
+        "config/nav2.yaml",
+        "frequency: 20.0",
+        "frequency: 10.0",
+        "K982",
+        3,
+        "`model_dt` is 0.05 s, shorter than the period of `controller_server`, 0.1 s",
+    ),
     (ROS2, "config/nav2.yaml", "_dt: 0.05", "_dt: 0.02", "K982", 8, "shorter than the period of `controller_server`"),
     (ROS2, "config/nav2.yaml", "scan_front", "scan", "K977", 11, "no other file names the topic `scan`"),
     (

@@ -475,3 +475,12 @@ def test_some_node_publishes_the_transform_of_the_odometry(tmp_path: Path, flag:
     (tmp_path / "pair.yaml").write_text(text)
     found = [one.message for one in lint(tmp_path) if one.file.endswith(".yaml")]
     assert [message[:49] for message in found] == messages
+
+
+def test_filters_that_both_publish_the_global_transform_are_one_finding(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    assert PAIR.count("world_frame: odom") == 1
+    (tmp_path / "pair.yaml").write_text(PAIR.replace("world_frame: odom", "world_frame: map"))
+    [found] = [one.message for one in lint(tmp_path) if one.code == "K983"]
+    assert "publish the same transform" in found

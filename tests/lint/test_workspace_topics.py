@@ -145,6 +145,24 @@ def test_a_node_that_may_publish_odometry_is_trusted(tmp_path):
     assert [one.code for one in lint(tmp_path, target="ros2") if one.file.endswith(".yaml")] == []
 
 
+@pytest.mark.parametrize("has_other", [False, True])
+def test_a_topic_of_a_sensor_that_other_files_name_otherwise_is_reported_at_the_sensor(tmp_path, has_other):
+    (tmp_path / "cart.urdf").write_text(ROBOT.replace("imu/data<", "imu/data_raw<"))
+    for file, text in FILES.items():
+        text = text.replace("base_driver", "robot_state_publisher")
+        if has_other:
+            text = text.replace("</launch>\n", NAVSAT.format("")).replace(
+                "imu0: imu/data", "imu0: imu/data\n    imu1: imu/data"
+            )
+        (tmp_path / file).write_text(text)
+    found = [one for one in lint(tmp_path, target="ros2") if one.code == "K977"]
+    messages = {
+        True: ("cart.urdf", "no other file names the topic `imu/data_raw`; did you mean `imu/data`?"),
+        False: ("ekf.yaml", "no other file names the topic `imu/data`; did you mean `imu/data_raw`?"),
+    }
+    assert [(one.file.rpartition("/")[2], one.message) for one in found] == [messages[has_other]]
+
+
 GPS = """  <link name="gps"/>
   <joint name="gps_joint" type="fixed"><parent link="base_link"/><child link="gps"/></joint>
   <gazebo reference="gps">

@@ -74,8 +74,10 @@ def contradictions(
             yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and rejects trajectories"
 
 
-def partial_lists(entry: MoveitEntry, controllers: list[ControllerSettings]) -> Iterator[tuple[Node, str]]:
-    """Yield the joints of a MoveIt controller that lack some of those of a controller of trajectories.
+def partial_lists(entry: MoveitEntry, controllers: list[ControllerSettings]) -> Iterator[tuple[Node, str, list[str]]]:
+    """Yield the key of the joints of a MoveIt controller that lack some of those of a controller of trajectories.
+
+    With it, yield a message and the lacking joints.
 
     Such a controller rejects goals without all of its joints unless ``allow_partial_joints_goal`` is true.
     """
@@ -92,7 +94,7 @@ def partial_lists(entry: MoveitEntry, controllers: list[ControllerSettings]) -> 
     lacking = [name for name in names[0] if name not in listed]
     if lacking and set(listed) < set(names[0]):
         which = ", ".join(f"`{name}`" for name in lacking[:3]) + (", …" if len(lacking) > 3 else "")
-        yield key, f"`joints` lacks {which} of controller `{entry.name.text}`, which rejects such trajectories"
+        yield key, f"`joints` lacks {which} of controller `{entry.name.text}`, which rejects such trajectories", lacking
 
 
 def meant_controller(

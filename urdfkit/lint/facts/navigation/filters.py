@@ -112,15 +112,18 @@ def filter_defects(model: Model, every: list[Filter]) -> Defects:
     wheels = _wheel_odometry(model) if every else set()
     children = list(_second_parents(model, every))
     yield from children
+    pairs: list[tuple[Source, Node, str]] = []
     for file in dict.fromkeys(each.source.file for each in every):
         is_reported = any(source.file == file for source, _, _ in children)
-        yield from _of_pair([each for each in every if each.source.file == file], not is_reported)
+        pairs += _of_pair([each for each in every if each.source.file == file], not is_reported)
+    yield from pairs
     if len({each.source.file for each in every}) > 1:
         yield from _of_launched(model, every)
     for each in every:
         local = {topic.text.strip("/") for one in every if one.is_local for _, topic, _, _ in one.inputs()}
         yield from _of_inputs(each, wheels | local)
-    yield from _without_transform(model, every)
+    reported = {id(node) for _, node, _ in pairs}  # Filters that publish the same transform lack the other one.
+    yield from (each for each in _without_transform(model, every) if id(each[1]) not in reported)
 
 
 def _of_pair(pair: list[Filter], has_root: bool) -> Defects:

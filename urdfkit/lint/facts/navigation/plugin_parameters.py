@@ -93,6 +93,10 @@ def _plain(name: str) -> str:
     return name.replace("_", "").lower()
 
 
+_MODEL_STEP = 0.05
+"""Default of ``model_dt`` [s], the period of the default frequency (nav2_mppi_controller, optimizer.cpp)."""
+
+
 def short_model_steps(source: Source) -> Defects:
     """Yield each time step of MPPI that is shorter than the period of the controller, which the controller refuses."""
     for key, group in sections(source) if "model_dt" in source.text else ():
@@ -101,4 +105,6 @@ def short_model_steps(source: Source) -> Defects:
             value, step = node.find("model_dt"), number_of(node.find("model_dt"))
             if value is not None and step is not None and rate and 1.0 / rate > step + 1e-6:
                 message = f"`model_dt` is {step:g} s, shorter than the period of `{key.text}`, {1.0 / rate:g} s"
-                yield source, value, message
+                frequency = group.find("controller_frequency")
+                is_default = abs(step - _MODEL_STEP) < 1e-9 and frequency is not None  # so the frequency was changed
+                yield source, frequency if is_default and frequency is not None else value, message

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Set
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.related_files import LAUNCH
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.yaml_tree import start_of
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
@@ -67,6 +68,10 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
         if (mention.source.file, mention.topic.start) not in seen:
             near = others[0] if len(others) == 1 else nearest(mention.topic.name.strip("/"), others, cutoff=0.75)
             end = mention.topic.start + len(mention.reader) if mention.reader else mention.topic.end
+            element = _renamed(near, mention.topic.name, topics, words) if near is not None else None
+            if element is not None and near is not None:
+                yield model.span(element.origin.position), near, Suggestion(mention.topic.name.strip("/"), near)
+                continue
             use = f", which `{mention.reader}` reads" if mention.reader else ""
             hint = Suggestion(near, mention.topic.name) if near is not None else f"; {_listed(mention.type, others)}"
             yield mention.source.span(mention.topic.start, end), mention.topic.name, use + hint
@@ -81,6 +86,25 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
                 elements[0].text.strip(),
                 Suggestion(near, elements[0].text.strip()),
             )
+
+
+def _renamed(topic: str, read: str, topics: RobotTopics, words: Words) -> Element | None:
+    """Return the only element of the description that names a topic, if several files name the topic of a reader.
+
+    Args:
+        topic: the topic that a sensor publishes.
+        read: a topic that a node reads.
+        topics: the topics of the robot.
+        words: the words of the files.
+    """
+    elements = topics.elements.get(last(topic), ())
+    is_named_once = words.places_of(topic.strip("/")) == 1 and len(elements) == 1
+    is_sensor = is_named_once and elements[0].text.strip().endswith(topic.strip("/"))
+    return elements[0] if is_sensor and words.places_of(read.strip("/")) >= _OTHER_PLACES else None
+
+
+_OTHER_PLACES = 3
+"""Number of places that name a topic from which on the sensor has the wrong name."""
 
 
 def _listed(kind: str, topics: list[str]) -> str:

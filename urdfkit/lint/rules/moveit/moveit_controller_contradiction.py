@@ -65,7 +65,7 @@ class MoveitControllerContradiction(RobotRule):
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
                         yield self.at_span(span_of(source, node), message, names=(node.text, name))
-                    for node, message in partial_lists(entry, started.get(name, [])):
-                        yield self.at_span(span_of(source, node), message, kind="partial")
+                    for node, message, joints in partial_lists(entry, started.get(name, [])):
+                        yield self.at_span(span_of(source, node), message, kind="partial", names=tuple(joints))
         for span, message, name in unspawned(names, started, model):
             yield self.at_span(span, message, kind="unspawned", names=(name,))

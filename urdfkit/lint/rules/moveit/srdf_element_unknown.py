@@ -90,12 +90,29 @@ class SrdfElementUnknown(RobotRule):
         if near is not None and near.lower() != reason.lower():
             message = f"unknown reason `{reason}`" + Suggestion(near, reason)
             yield self.at(model, pair, message, attribute="reason", severity="note")
-        elif reason == "Never" and any(
-            {joint.parent, joint.child} == {one, other} and joint.type != "fixed" for joint in model.robot.joints
+        elif reason == "Never" and (
+            joint := next(
+                (
+                    each
+                    for each in model.robot.joints
+                    if {each.parent, each.child} == {one, other} and each.type != "fixed"
+                ),
+                None,
+            )
         ):
             message = f"the reason is `Never`, but a joint connects links `{one}` and `{other}`"
-            help = "write `Adjacent`"
-            yield self.at(model, pair, message, attribute="reason", help=help, severity="note", kind="reason")
+            help, place = "write `Adjacent`", parent_at(model, joint)
+            yield self.at(
+                model,
+                pair,
+                message,
+                attribute="reason",
+                help=help,
+                severity="note",
+                kind="reason",
+                other=place,
+                cause="never",
+            )
         elif reason != "Adjacent" or one not in links or other not in links or model.is_incomplete:
             return
         elif other not in near_links(one, model):

@@ -62,7 +62,8 @@ class SrdfGroupInconsistent(RobotRule):
                     if _contains(below.get("name") or "", name, by_name):
                         yield self.at(model, below, f"group `{name}` contains itself", attribute="name", severity=empty)
             for group, message in repeated_groups(root, model.robot):
-                yield self.at(model, group.find("chain") or group, message, severity=severity)
+                place, names = group.find("chain") or group, (group.get("name") or "",)
+                yield self.at(model, place, message, severity=severity, kind="repeated", names=names)
             for joint in root.find_all("virtual_joint"):
                 child = joint.get("child_link") or ""
                 if root_link and child != root_link and child in model.robot.link_by_name:

@@ -69,15 +69,36 @@ class ControllerJointForeign(RobotRule):
                 names = listed.texts() if listed is not None and one.kind.endswith("TrajectoryController") else []
                 # A joint that no robot has is reported where it is listed.
                 is_complete = set(names) <= model.robot.joint_by_name.keys()
+                left_out = _left_out(one, names, model) if names and is_complete else set()
+                for key in (key for key, value in one.group.entries if value is listed and left_out):
+                    lacking = ", ".join(f"`{name}`" for name in sorted(left_out))
+                    message = f"`joints` of `{one.name}` lacks {lacking}, which its other settings and MoveIt have"
+                    named = (*sorted(left_out), one.name)
+                    yield self.at_span(span_of(source, key), message, names=named, kind="left out")
                 for key, value in one.group.entries if names and is_complete else ():
                     for inner, each in value.entries if key.text in ("constraints", "gains") else ():
-                        is_joint = each.kind == "group" and inner.text not in names
+                        is_joint = each.kind == "group" and inner.text not in (*names, *left_out)
                         if is_joint and "$" not in inner.text and (inner.line, inner.column) not in misspelt:
                             message = f"`{key.text}` has `{inner.text}`, which controller `{one.name}` does not control"
                             hint = meant(inner.text, names)[1]
                             yield self.at_span(
                                 span_of(source, inner), message + hint, names=(inner.text,), kind="foreign"
                             )
+
+
+def _left_out(one: ControllerSettings, names: list[str], model: Model) -> set[str]:
+    """Return the joints that the settings of a controller and of its MoveIt controller have, but not its list."""
+    from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
+
+    groups = [value for key, value in one.group.entries if key.text in ("constraints", "gains")]
+    named = {key.text for group in groups for key, value in group.entries if value.kind == "group"} - set(names)
+    named &= model.robot.joint_by_name.keys()
+    if not named:
+        return named
+    controllers = [entry for source, _ in moveit_yamls(model) for entry in entries(source)]
+    controllers = [entry for entry in controllers if entry.kind == "controller" and entry.name.last_name == one.name]
+    lists = [joints.texts() for entry in controllers if (joints := entry.settings.find("joints")) is not None]
+    return {name for name in named if any({name, *names} <= {*each} for each in lists)}
 
 
 _SIDES = "left|right|[lr]_"

@@ -13,7 +13,7 @@ from urdfkit.lint.facts.control.ros2_controllers import (
     offered,
     wanted,
 )
-from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, span_of, yamls
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -185,11 +185,23 @@ class HardwareInterfaceLacking(RobotRule):
                 help = f'add <{side} name="{first.interface}"/> to the hardware, or change the controller'
                 help = help if near is None else f"write `{near}`"
             span, kind = span_of(source, first.where), "joint" if interfaces is None else side
+            item = _follower(joints, first, controller, model) if interfaces is not None else None
+            if item is not None and interfaces is not None and not interfaces[first.is_command]:
+                span, help = span_of(source, item), f"remove `{joints[0]}`, which follows another joint"
             other = _entry_before(first.joint, controller, hardware, model) if interfaces is None else None
             found = self.at_span(
                 span, message, joint=first.joint, help=help, kind=kind, names=(*joints[1:], controller.name)
             )
             yield Finding(**{**found.__dict__, "other": other, "is_other_wrong": other is not None})
+
+
+def _follower(joints: tuple[str, ...], need: Wanted, controller: DeclaredController, model: Model) -> Node | None:
+    """Return the item of a list of joints for the only joint without commands, if that mimics another joint."""
+    listed = controller.settings.find("joints") if controller.settings is not None else None
+    joint = model.robot.joint_by_name.get(joints[0])
+    if listed is None or len(joints) > 1 or not need.is_command or joint is None or joint.mimic is None:
+        return None
+    return next((item for item in listed.items if item.text == joint.name), None) if len(listed.items) > 1 else None
 
 
 def _entry_before(
