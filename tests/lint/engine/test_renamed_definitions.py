@@ -62,3 +62,17 @@ def test_a_renamed_definition_is_one_finding_there_and_a_misspelt_use_at_the_use
     assert lint("cart.urdf.xacro", ignore=("G", "I510")) == []
     (tmp_path / "cart.urdf.xacro").write_text(ROBOT.replace(old, new))
     assert [each.line for each in lint("cart.urdf.xacro", ignore=("G", "I510"))] == [line]
+
+
+def test_the_same_slip_in_two_uses_is_reported_there(tmp_path, monkeypatch):
+    """Other names have the word of the defined name, and none that of its uses."""
+    monkeypatch.chdir(tmp_path)
+    text = """<robot name="cart"><link name="base"/>
+<link name="left_wheel"/><link name="right_wheel"/>
+<joint name="a" type="fixed"><parent link="base"/><child link="left_weel"/></joint>
+<joint name="b" type="fixed"><parent link="base"/><child link="right_wheel"/></joint>
+<gazebo reference="left_weel"><mu1>1</mu1></gazebo></robot>"""
+    (tmp_path / "cart.urdf").write_text(text)
+    found = [(each.code, each.line) for each in lint("cart.urdf", select=("T", "Z80"))]
+    assert ("T202", 3) in found
+    assert [each for each in found if each == ("T202", 2)] == []

@@ -46,7 +46,7 @@ class RenamedDefinitions:
         """Return whether the definition has the wrong name.
 
         That is so if no other place uses the defined name, and if several places have the undefined name, or if only
-        the undefined name consists of words that other names have too.
+        the undefined name consists of words that other names have too. It is not if only the defined name does.
 
         Args:
             meant: the defined name that a finding suggests.
@@ -57,12 +57,13 @@ class RenamedDefinitions:
         if meant in _STANDARD or self.places(meant) - {definition}:
             return False
         places = self.places(name) - {definition}
-        if max(uses, len(places)) >= _SMALLEST:
-            return True
         words, others = (set(re.findall(r"[^\W\d_]+", each)) for each in (meant, name))
         own, strange = words - others, others - words
-        shared = [self._has_word(word, places) for word in strange]
-        return bool(own) and all(shared) and not any(self._has_word(word, {definition}) for word in own)
+        is_shared = all(self._has_word(word, places) for word in strange)
+        is_own_shared = any(self._has_word(word, {definition}) for word in own)
+        if is_own_shared and not is_shared:  # The same slip in several places.
+            return False
+        return max(uses, len(places)) >= _SMALLEST or (bool(own) and is_shared and not is_own_shared)
 
     def places(self, name: str) -> set[Place]:
         """Return file and line of each place that has a name, as written or with the values of expressions."""
