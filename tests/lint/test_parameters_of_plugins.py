@@ -81,6 +81,21 @@ CLOUD = """cloud_to_scan:
     range_max: 6.0
     use_inf: true
 """
+INVERTED = """cloud_to_scan:
+  ros__parameters:
+    min_height: -0.4
+    max_height: -0.1
+    angle_min: 3.14
+    angle_max: -3.14
+    angle_increment: -0.01
+amcl:
+  ros__parameters:
+    pf_z: 2.33
+    pf_err: 0.05
+    recovery_alpha_fast: 0.0
+    sigma_hit: 0.2
+"""
+"""A slice of points below the sensor, an inverted lidar (sensor_msgs/LaserScan), a quantile above 1 (AMCL of Nav2)."""
 ROS1 = """TebLocalPlannerROS:
   max_vel_x: 0.5
   acc_lim_x: 1
@@ -100,10 +115,18 @@ def messages(text: str) -> list[str]:
     return found + [f"{name}: {right}" for _, name, right in wrong_numbers_of_plugins(source)]
 
 
-@pytest.mark.parametrize("text", [CONTROLLER, DOCKING, ADMITTANCE, MECANUM, CLOUD, ROS1])
+@pytest.mark.parametrize("text", [CONTROLLER, DOCKING, ADMITTANCE, MECANUM, CLOUD, INVERTED, ROS1])
 def test_correct_parameters_have_no_finding(text: str) -> None:
     assert list(typed_groups(Source("parameters.yaml", text)))
     assert messages(text) == []
+
+
+def test_a_minimum_above_the_maximum_may_be_right(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package format=\"3\"><name>p</name></package>")
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "scan.yaml").write_text(INVERTED)
+    (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="base_link"/></robot>')
+    assert [each.code for each in lint([tmp_path]) if each.file.endswith("scan.yaml")] == []
 
 
 @pytest.mark.parametrize(

@@ -220,7 +220,7 @@ ORDERED = (
     *(("min_laser_range", "max_laser_range"), ("laser_min_range", "laser_max_range"), ("xmin", "xmax")),
     *(("ymin", "ymax"), ("obstacle_range", "raytrace_range"), ("obstacle_max_range", "raytrace_max_range")),
     *(("v_linear_min", "v_linear_max"), ("min_lookahead", "max_lookahead"), ("u_clamp_min", "u_clamp_max")),
-    *(("range_min", "range_max"), ("angle_min", "angle_max"), ("lower_threshold", "upper_threshold")),
+    *(("range_min", "range_max"), ("lower_threshold", "upper_threshold")),
     *(("near_clipping_plane_distance", "far_clipping_plane_distance"), ("lower_angle", "upper_angle")),
     ("free_thresh_default", "occupied_thresh_default"),
 )

@@ -111,7 +111,8 @@ lower_threshold upper_threshold|use_message_range_limits,lower_replacement_value
 neighbors|window|1 500
 laser_likelihood_max_dist||0.05 50 m
 odom_alpha1 odom_alpha2 odom_alpha3 odom_alpha4 odom_alpha5||0.0001 20
-kld_z pf_z||0.5 1
+kld_z||0.5 1
+pf_z||0.5 5
 kld_err pf_err||0.0001 0.5
 iterations|maxUrange|1 200
 max_global_plan_lookahead_dist||0.05 200 m

@@ -91,7 +91,7 @@ def _kind(name: str, node: Node, is_ros2: bool, types: dict[str, str]) -> str:
 _NOT_NEGATIVE = (
     r"(?:.*_)?(?:weight|tolerance|timeout|patience|frequency|rate|samples|iterations|radius|steps|hysteresis|interval"
     r"|threads|queue_size|resolution|granularity|power|dt|ratio|max_range|dist|std|delta|particles|scaling_factor)"
-    r"|weight_\w+|acc_lim_\w+|max_vel_\w+|a[xz]_max|v_linear_max|threshold_to_consider|max_height|scan_(?:time|height)"
+    r"|weight_\w+|acc_lim_\w+|max_vel_\w+|a[xz]_max|v_linear_max|threshold_to_consider|scan_(?:time|height)"
     r"|approach_velocity_scaling_dist|regulated_linear_scaling_\w+|max_\w+_time\w*|odom_alpha\d|min_points|cost_\w+|\w+_penalty"
 )
 """Matches parameters that are not negative; -1 stands for a default."""
