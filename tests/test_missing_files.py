@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.missing_files import missing_path
+from urdfkit.missing_files import expanded_path, missing_path
 
 
 @pytest.fixture
@@ -32,3 +32,8 @@ def test_the_suggestion_is_a_path_in_the_form_that_was_written(folder: Path, wri
 
 def test_no_path_is_suggested_without_a_similar_name(folder: Path) -> None:
     assert missing_path("leg.urdf") == "no such file: leg.urdf"
+
+
+def test_a_home_folder_of_nobody_is_a_missing_path(folder: Path) -> None:
+    assert missing_path("~nobody_of_this_name/arm.urdf") == "no such file: ~nobody_of_this_name/arm.urdf"
+    assert expanded_path("~") == Path.home()

@@ -8,6 +8,11 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.errors import may_suggest, nearest
 
 
+def expanded_path(written: str | Path) -> Path:
+    """Return a path with the home folder in place of ``~``; as written if there is no such user."""
+    return Path(os.path.expanduser(written))  # noqa: PTH111 (Path.expanduser() fails for unknown users)
+
+
 def missing_path(written: str | Path, kind: str = "file") -> str:
     """Return the message for a path that does not exist: ``no such file: arn.urdf; did you mean `arm.urdf`?``.
 
@@ -17,7 +22,7 @@ def missing_path(written: str | Path, kind: str = "file") -> str:
         written: the path as the user wrote it.
         kind: the expected kind: ``file``, ``folder`` or ``file or folder``.
     """
-    path = Path(written).expanduser()
+    path = expanded_path(written)
     near = similar_file(path)
     if near is None:
         return f"no such {kind}: {written}"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
-from urdfkit.missing_files import missing_path
+from urdfkit.missing_files import expanded_path, missing_path
 from urdfkit.record import record
 from urdfkit.robot_files import MODEL_SUFFIXES, children, models_in, robot_name, stem
 
@@ -147,7 +147,7 @@ def _shipped(kind: str) -> Path:
 
 
 def _existing_folder(folder: str | Path) -> Path:
-    path = Path(folder).expanduser()
+    path = expanded_path(folder)
     if not path.is_dir():
         raise ResourceError(f"--package-path: {missing_path(folder, 'folder')}")
     return path.resolve()
@@ -156,7 +156,7 @@ def _existing_folder(folder: str | Path) -> Path:
 def _find(word: str) -> Path:
     if reason := no_path(word):
         raise ResourceError(reason)
-    path = Path(word).expanduser()
+    path = expanded_path(word)
     if path.is_file():
         if path.suffix.lower() in _WORLD_SUFFIXES:
             raise ResourceError(f"{word} is an SDF file, not a robot description; a world goes after --world")
@@ -189,7 +189,7 @@ def no_path(word: str) -> str | None:
     if (uri := _URI.match(word)) is not None:
         advice = "download it, and name the file" if uri[1].startswith("http") else "name the file by its path"
         return f"{word} is a URI, not a path; {advice}"
-    path = Path(word).expanduser()
+    path = expanded_path(word)
     if path.is_symlink() and not path.exists():
         return f"{word} is a symbolic link to {path.readlink()}, which does not exist or leads back to the link"
     return None

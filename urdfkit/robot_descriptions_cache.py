@@ -11,6 +11,7 @@ from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.errors import ResourceError, did_you_mean, nearest
+from urdfkit.missing_files import expanded_path
 from urdfkit.record import record
 
 _MAX_DEPTH = 20
@@ -89,7 +90,7 @@ def _package() -> Path | None:
 
 
 def _cache() -> Path:
-    return Path(os.environ.get("ROBOT_DESCRIPTIONS_CACHE", "~/.cache/robot_descriptions")).expanduser()
+    return expanded_path(os.environ.get("ROBOT_DESCRIPTIONS_CACHE", "~/.cache/robot_descriptions"))
 
 
 class _Constants:

@@ -122,7 +122,7 @@ def test_correct_parameters_have_no_finding(text: str) -> None:
 
 
 def test_a_minimum_above_the_maximum_may_be_right(tmp_path: Path) -> None:
-    (tmp_path / "package.xml").write_text("<package format=\"3\"><name>p</name></package>")
+    (tmp_path / "package.xml").write_text('<package format="3"><name>p</name></package>')
     (tmp_path / "config").mkdir()
     (tmp_path / "config" / "scan.yaml").write_text(INVERTED)
     (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="base_link"/></robot>')

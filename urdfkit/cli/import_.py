@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfkit.cli.parser import Parser
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.missing_files import missing_path
+from urdfkit.missing_files import expanded_path, missing_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _file(word: str) -> Path:
-    path = Path(word).expanduser()
+    path = expanded_path(word)
     if path.is_dir():
         from urdfkit.robot_files import models_in
 
@@ -132,7 +132,7 @@ def _file(word: str) -> Path:
 
 
 def _folder(word: str) -> Path:
-    path = Path(word).expanduser()
+    path = expanded_path(word)
     if not path.is_dir():
         raise ResourceError(f"--meshes: {missing_path(word, 'folder')}")
     return path

@@ -169,10 +169,11 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
 
 
 def _folder(word: str) -> Path:
-    folder = Path(word).expanduser()
+    from urdfkit.missing_files import expanded_path, missing_path
+
+    folder = expanded_path(word)
     if not folder.is_dir():
         from urdfkit.errors import ResourceError
-        from urdfkit.missing_files import missing_path
 
         raise ResourceError(f"--package-path: {missing_path(word, 'folder')}")
     return folder

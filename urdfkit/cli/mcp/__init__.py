@@ -4,11 +4,10 @@ Each call of a tool runs in a process of its own, which is limited in time and m
 """
 
 import argparse
-from pathlib import Path
 
 from urdfkit.cli.parser import seconds
 from urdfkit.errors import MissingDependencyError, ResourceError
-from urdfkit.missing_files import missing_path
+from urdfkit.missing_files import expanded_path, missing_path
 
 TIME_LIMIT = 60.0
 """Default limit of the wall time of one call [s]."""
@@ -37,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         ResourceError: the folder does not exist.
         MissingDependencyError: the package mcp is not installed.
     """
-    root = Path(arguments.root).expanduser()
+    root = expanded_path(arguments.root)
     if not root.is_dir():
         raise ResourceError(f"--root: {missing_path(arguments.root, 'folder')}")
     try:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from urdfkit.cli.parser import add_package_path
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
+from urdfkit.missing_files import expanded_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -54,8 +55,8 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
 
     into = arguments.into
     if not arguments.diff:
-        _revert_killed_changes(Path(into or ".").expanduser())
-    if into is not None and not Path(into).expanduser().exists():
+        _revert_killed_changes(expanded_path(into or "."))
+    if into is not None and not expanded_path(into).exists():
         siblings = sorted(path.name for path in Path.cwd().iterdir())
         completions = [name for name in siblings if name.startswith(into) and name.endswith("_description")]
         near = did_you_mean(into, siblings) or (f"; did you mean `{completions[0]}`?" if completions else "")

@@ -52,7 +52,9 @@ def folder() -> Path:
     """Return the cache folder: ``URDFKIT_CACHE_DIR``, else the user's cache folder of the operating system."""
     named = os.environ.get("URDFKIT_CACHE_DIR")
     if named:
-        return Path(named).expanduser() / "lint"
+        from urdfkit.missing_files import expanded_path
+
+        return expanded_path(named) / "lint"
     home = Path.home()
     if sys.platform == "darwin":
         return home / "Library" / "Caches" / "urdfkit" / "lint"

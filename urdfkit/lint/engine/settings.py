@@ -22,7 +22,7 @@ from pathlib import Path
 
 from urdfkit.description.xml.formatting import INDENT, MAX_INDENT
 from urdfkit.errors import UsageError, did_you_mean
-from urdfkit.missing_files import missing_path
+from urdfkit.missing_files import expanded_path, missing_path
 from urdfkit.record import field, record
 
 TYPE_CHECKING = False
@@ -175,11 +175,11 @@ def _texts(file: Path, name: str, value: list[Any]) -> tuple[str, ...]:
 
 
 def _path(file: Path, _: str, value: str) -> Path:
-    return file.parent / Path(value).expanduser()
+    return file.parent / expanded_path(value)
 
 
 def _folders(file: Path, name: str, value: list[Any]) -> tuple[Path, ...]:
-    folders = tuple(file.parent / Path(text).expanduser() for text in _texts(file, name, value))
+    folders = tuple(file.parent / expanded_path(text) for text in _texts(file, name, value))
     for folder in folders:
         if not folder.is_dir():
             raise UsageError(f"{file}: `{name}`: {missing_path(folder, 'folder')}")

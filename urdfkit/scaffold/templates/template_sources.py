@@ -4,7 +4,7 @@ from pathlib import Path
 from types import ModuleType
 
 from urdfkit.errors import ResourceError, did_you_mean
-from urdfkit.missing_files import missing_path
+from urdfkit.missing_files import expanded_path, missing_path
 from urdfkit.entry_points import EntryPoint, entry_points
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.templates.template_parser import NAME, load_template
@@ -49,7 +49,7 @@ def template_at(place: str) -> Template:
     Raises:
         ResourceError: the template is missing or invalid.
     """
-    folder = Path(place).expanduser()
+    folder = expanded_path(place)
     if folder.name == NAME:
         folder = folder.parent
     if not (folder / NAME).is_file():
