@@ -100,6 +100,7 @@ def mux_defects(source: Source) -> Defects:
                     yield value, f"{message}; only one of them is forwarded"
                 by_priority.setdefault(number, name)
             yield from _unending(inputs)
+            yield from _below_navigation(inputs)
             for name, entry in _inputs(group.find("locks")):
                 value = entry.find("priority")
                 number = number_of(value)
@@ -113,6 +114,31 @@ def mux_defects(source: Source) -> Defects:
                 above = [each for priority, each in by_priority.items() if priority > number]
                 if above and number > 0:
                     yield value, f"lock `{name}` has the priority {number:g} and does not stop input `{above[-1]}`"
+
+
+def _below_navigation(inputs: list[tuple[str, Node]]) -> Defects:
+    """Yield the priority of each joystick that cannot interrupt the commands of navigation."""
+    values = [(name, entry.find("priority"), entry.find("topic")) for name, entry in inputs]
+    named = [(f"{name} {topic.text}" if topic is not None else name, name, value) for name, value, topic in values]
+    goals = [
+        (number, name)
+        for words, name, value in named
+        if re.search(_NAVIGATES, words, re.I) and not re.search(_MANUAL, words, re.I)
+        if (number := number_of(value)) is not None
+    ]
+    for words, name, value in named:
+        number = number_of(value)
+        above = [other for priority, other in goals if number is not None and priority > number]
+        if value is not None and number and above and re.search(_MANUAL, words, re.I):
+            message = (
+                f"input `{name}` has the priority {number:g}, lower than `{above[0]}`, so a person cannot interrupt it"
+            )
+            yield value, message
+
+
+_NAVIGATES = r"nav|move_base|autonom|planner"
+_MANUAL = r"joy|gamepad|joystick"
+"""Words of inputs of twist_mux: commands of a program, and of a person."""
 
 
 def _unending(inputs: list[tuple[str, Node]]) -> Defects:
