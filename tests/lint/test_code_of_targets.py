@@ -178,3 +178,24 @@ def test_targets_of_catkin(tmp_path, monkeypatch, old, new, expected):
     assert CATKIN.count(old) == 1
     write(tmp_path, {"CMakeLists.txt": CATKIN.replace(old, new)})
     assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
+
+
+@pytest.mark.parametrize("package", ["nav_msgs", "shop_msgs"])
+@pytest.mark.parametrize("is_given", [False, True])
+def test_packages_of_own_headers(tmp_path, monkeypatch, package, is_given):
+    """A package of the workspace is missing even if an unknown package is given."""
+    header = f'#ifndef CORE_HPP\n#define CORE_HPP\n#include "{package}/msg/load.hpp"\n#endif\n'
+    used = ("unknown_lib", *((package,) if is_given else ())) if package == "shop_msgs" else (package,) * is_given
+    cmake = CMAKE.replace("(core rclcpp)", f"(core {' '.join((*used, 'rclcpp'))})")
+    cmake = cmake.replace(
+        "find_package(std_srvs REQUIRED)", f"find_package(std_srvs)\nfind_package({package} REQUIRED)"
+    )
+    manifest = FILES["package.xml"].replace("</license>", f"</license><depend>{package}</depend>")
+    manifest = manifest if package == "shop_msgs" else FILES["package.xml"]
+    write(tmp_path / "shop_msgs", {"package.xml": MANIFEST.replace("<name>cart", "<name>shop_msgs")})
+    write(tmp_path / "cart", {**FILES, "CMakeLists.txt": cmake, "package.xml": manifest})
+    write(tmp_path / "cart", {"include/cart/core.hpp": header, "src/core.cpp": '#include "cart/core.hpp"\n'})
+    monkeypatch.chdir(tmp_path / "cart")
+    rows = [row for row in found(tmp_path / "cart") if "headers of" in row]
+    message = f"target `core` includes headers of `{package}`, but does not depend on it"
+    assert rows == ([] if is_given else [f"CMakeLists.txt:11: {message}"])

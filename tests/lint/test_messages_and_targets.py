@@ -46,6 +46,7 @@ FILES = {
     "launch/cart.launch.xml": '<launch>\n  <node pkg="cart" exec="drive"/>\n</launch>\n',
 }
 NEEDS = "CMakeLists.txt:6: {}() needs find_package({} REQUIRED)"
+MADE = ["CMakeLists.txt:9: `msg/Made.msg` does not exist in this package"]
 NEEDS_GROUP = "rosidl_generate_interfaces() needs <member_of_group>rosidl_interface_packages</member_of_group>"
 
 
@@ -59,6 +60,13 @@ NEEDS_GROUP = "rosidl_generate_interfaces() needs <member_of_group>rosidl_interf
             ["CMakeLists.txt:7: `srv/Tip.srv` is not generated; rosidl_generate_interfaces() does not name it"],
         ),
         ("CMakeLists.txt", '  "srv/Tip.srv"\n', '  # "srv/Tip.srv"\n', []),
+        (
+            "CMakeLists.txt",
+            "srv/Tip.srv",
+            "srv/Lift.srv",
+            ["CMakeLists.txt:9: `srv/Lift.srv` does not exist in this package; did you mean `Tip.srv`?"],
+        ),
+        ("CMakeLists.txt", '  "srv/Tip.srv"', '  "srv/Tip.srv" "msg/Made.msg" # file(WRITE', MADE),
         ("CMakeLists.txt", '"srv/Tip.srv"', "${services}", []),
         (
             "CMakeLists.txt",
@@ -157,6 +165,11 @@ CATKIN_MANIFEST = (
         ),
         ("add_service_files(FILES Tip.srv)", "add_service_files()", []),
         (
+            "Tip.srv",
+            "Tap.srv",
+            ["CMakeLists.txt:5: `srv/Tap.srv` does not exist in this package; did you mean `Tip.srv`?"],
+        ),
+        (
             "generate_messages(DEPENDENCIES std_msgs)",
             "generate_messages()",
             ["CMakeLists.txt:6: `Load.msg` uses `std_msgs`, which is missing in DEPENDENCIES"],
@@ -171,6 +184,23 @@ def test_messages_of_ros1(tmp_path, monkeypatch, old, new, expected):
     assert CATKIN.count(old) == 1
     write(tmp_path, {"CMakeLists.txt": CATKIN.replace(old, new)})
     assert found(tmp_path) == expected
+
+
+@pytest.mark.parametrize("needed", ["", " actionlib_msgs"])
+def test_messages_of_an_action_need_those_of_actionlib(tmp_path, monkeypatch, needed):
+    monkeypatch.chdir(tmp_path)
+    cmake = CATKIN.replace("add_service_files(FILES Tip.srv)", "add_action_files(FILES Lift.action)")
+    cmake = cmake.replace("DEPENDENCIES std_msgs", f"DEPENDENCIES std_msgs{needed}")
+    cmake = cmake.replace("message_generation std", "message_generation actionlib_msgs std")
+    manifest = CATKIN_MANIFEST.replace("</license>", "</license><depend>actionlib_msgs</depend>")
+    write(tmp_path, {"urdf/cart.urdf": ROBOT, "package.xml": manifest, "CMakeLists.txt": cmake})
+    write(
+        tmp_path, {"msg/Load.msg": "float64 mass\n", "action/Lift.action": "bool up\n---\nbool done\n---\nbool now\n"}
+    )
+    message = "`Lift.action` uses `actionlib_msgs`, which is missing in DEPENDENCIES"
+    assert [row for row in found(tmp_path) if "DEPENDENCIES" in row] == (
+        [] if needed else [f"CMakeLists.txt:6: {message}"]
+    )
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
+from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
@@ -29,6 +30,22 @@ _KEYWORDS = frozenset(
 )
 _NO_CODE = ("INTERFACE", "ALIAS", "IMPORTED")
 _CODE = r".*\.(?:c|cc|cpp|cxx)"
+
+
+def _included(path: Path) -> list[str]:
+    """Return the headers that a file in C++ includes without a condition."""
+    text = path.read_text("utf-8", "replace") if path.stat().st_size <= MAX_BYTES else ""
+    text = re.sub(r"(?s)/\*.*?\*/", "", text)
+    guard = re.match(r"(?s)(?:\s|//[^\n]*)*#[ \t]*ifndef\b[^\n]*\n", text)
+    text = text[guard.end() :] if guard is not None else text
+    depth = 0
+    found: list[str] = []
+    for line in re.finditer(r"(?m)^[ \t]*#[ \t]*(?:(if|endif)|include[ \t]*[<\"]([\w./-]+)[>\"])", text):
+        is_guard = line[1] == "if" and re.match(r"n?def\b|ndef", text[line.end() :]) is None
+        depth += (line[1] == "if") - (line[1] == "endif") if line[1] else 0
+        if line[2] and depth <= 0 and not is_guard:
+            found.append(line[2])
+    return found
 
 
 @record(eq=False)
@@ -55,16 +72,17 @@ class Target:
     @cached_property
     def headers(self) -> list[tuple[Path, str]]:
         """Return the headers that its source files include, each with the file."""
-        found: list[tuple[Path, str]] = []
-        for path in self.sources:
-            text = path.read_text("utf-8", "replace") if path.stat().st_size <= MAX_BYTES else ""
-            text = re.sub(r"(?s)/\*.*?\*/", "", text)
-            depth = 0
-            for line in re.finditer(r"(?m)^[ \t]*#[ \t]*(?:(if|endif)|include[ \t]*[<\"]([\w./-]+)[>\"])", text):
-                is_guard = line[1] == "if" and re.match(r"n?def\b|ndef", text[line.end() :]) is None
-                depth += (line[1] == "if") - (line[1] == "endif") if line[1] else 0
-                if line[2] and depth <= 0 and not is_guard:
-                    found.append((path, line[2]))
+        return [(path, header) for path in self.sources for header in _included(path)]
+
+    def headers_of_all(self, folder: Path) -> list[str]:
+        """Return the headers that its source files include, also those in headers of a package in a folder."""
+        found: list[str] = []
+        left, seen = [*self.sources], set[Path]()
+        for path in left:  # The list grows during the iteration.
+            for header in _included(path) if path not in seen else ():
+                found.append(header)
+                left += [each for each in (folder / "include" / header, path.parent / header) if is_file(each)][:1]
+            seen.add(path)
         return found
 
     @property
@@ -187,12 +205,17 @@ def _without_package(
     packages = {word.partition("::")[0] for word in words if word not in own and word.rpartition("::")[2] not in own}
     if any("$" in word for word in packages):
         return
-    covered = provided(packages - _SYSTEM, neighbours(files.folder))
-    if covered is None:
-        return
-    for _, header in target.headers:
+    near = neighbours(files.folder)
+    covered, checked = provided(packages - _SYSTEM, near), {*found}
+    if covered is None:  # what an unknown package provides is no package of this workspace only
+        covered = provided({name for name in packages if name in near}, near) or set()
+        checked = {name for name in found if name in near and name not in names()}
+    # A package that a linked library lacks is reported at the library.
+    others = _linked(target, own, files) - {target.name}
+    covered.update(header.partition("/")[0] for name in others for header in own[name].headers_of_all(files.folder))
+    for header in target.headers_of_all(files.folder):
         package = header.partition("/")[0]
-        if "/" in header and package in found and package not in {*covered, files.name}:
+        if "/" in header and package in checked and package not in {*covered, files.name}:
             covered.add(package)
             message = f"target `{target.name}` includes headers of `{package}`, but does not depend on it"
             yield BuildDefect(source, *target.place, message)

@@ -10,12 +10,15 @@ import re
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
+from urdfkit.description.packages.existence import is_file
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
-from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
+from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand, without_comments
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect, evaluated
 from urdfkit.lint.facts.packaging.cmake_packages import provided
 from urdfkit.lint.facts.packaging.interface_defects import interface_defects
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.project.code_files import code_texts
 
 INTERFACES = (".msg", ".srv", ".action")
@@ -39,7 +42,10 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
     lines = list(interface_defects(files, texts, dependencies, 1 if is_catkin else 2))
     yield from lines
     misspelt = {defect.text for defect in lines}
-    yield from _ungenerated(source, every, generator, [path for path, _ in texts])
+    paths = [path for path, _ in texts]
+    missing, meant = _missing(files, source, every, generator, paths)
+    yield from missing
+    yield from _ungenerated(source, every, generator, [path for path in paths if path not in meant])
     words = [word for word, _ in generator.words]
     at = words.index("DEPENDENCIES") if "DEPENDENCIES" in words else len(words)
     end = next((i for i, word in enumerate(words) if i > at and word.isupper()), len(words))
@@ -47,7 +53,7 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
     start, word = (generator.words[at][1], words[at]) if at < len(words) else (generator.start, generator.name)
     seen = {files.name, *(covered or ())}
     for path, text in texts if covered is not None else ():
-        for package in _packages(text, is_catkin):
+        for package in _packages(path, text, is_catkin):
             if package not in seen and path.name in source.text and package not in misspelt:
                 seen.add(package)
                 message = f"`{path.name}` uses `{package}`, which is missing in DEPENDENCIES"
@@ -56,11 +62,46 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
         yield from _manifest_of_interfaces(files)
 
 
-def _packages(text: str, is_catkin: bool) -> list[str]:
+def _packages(path: Path, text: str, is_catkin: bool) -> list[str]:
     """Return the packages of the types in a file with a message, service or action, in their order."""
     found = re.findall(r"(?m)^[ \t]*(\w+)/\w+(?:\[[<=\d]*\])?[ \t]+\w+", text)
     found += ["std_msgs"] if is_catkin and re.search(r"(?m)^[ \t]*Header[ \t]+\w+", text) else []
+    found += ["actionlib_msgs"] if is_catkin and path.suffix == ".action" else []  # in the messages of the action
     return list(dict.fromkeys(found))
+
+
+def _missing(
+    files: BuildFiles, source: Source, every: list[CMakeCommand], generator: CMakeCommand, paths: list[Path]
+) -> tuple[list[BuildDefect], list[Path]]:
+    """Return the files that commands generate from and that do not exist, and the existing files that are meant."""
+    if re.search(_WRITING, without_comments(source.text)):
+        return [], []
+    named: list[tuple[Path, str, int]] = []
+    for command in every if generator.name != _GENERATOR else [generator]:
+        folder = next((folder for folder, name in _OF_CATKIN.items() if name == command.name), "")
+        words = [word for word, _ in command.words]
+        if (command is generator) == bool(folder) or "DIRECTORY" in words:
+            continue
+        for word, start in command.words:
+            if Path(word).suffix in INTERFACES and re.fullmatch(r"[\w./-]+", word):
+                named.append((files.folder / folder / word, word, start))
+    left = [path for path in paths if path not in [each for each, _, _ in named]]
+    found: list[BuildDefect] = []
+    meant: list[Path] = []
+    for path, word, start in named:
+        if is_file(path):
+            continue
+        same = [each for each in left if each.suffix == path.suffix]
+        near = nearest(path.name, [each.name for each in same], cutoff=0.6)
+        only = same[0].name if len(same) == 1 else None
+        meant += [each for each in same if each.name == (near or only)]
+        message = f"`{path.relative_to(files.folder).as_posix()}` does not exist in this package"
+        found.append(BuildDefect(source, start, word, message + Suggestion(near or only, path.name), kind="missing"))
+    return found, meant
+
+
+_WRITING = r"(?i)add_custom_|configure_file|execute_process|\bfile\s*\("
+"""Matches commands that can write files."""
 
 
 def _ungenerated(
