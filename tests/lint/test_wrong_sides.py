@@ -308,6 +308,49 @@ def generate_launch_description():
 """
 
 
+def test_an_action_in_the_place_of_another_one_gives_one_finding(tmp_path):
+    cart = package(tmp_path / "cart", "joy", "launch", "launch_ros")
+    text = HANDLERS.format(started="second").replace("on_exit=[third]", "on_exit=[second]")
+    write(cart / "launch/cart.launch.py", text)
+    write(cart / "urdf/cart.urdf", '<robot name="cart"><link name="base"/></robot>')
+    (found,) = [each for each in lint(cart) if each.code in ("L106", "L107")]
+    assert (found.code, found.line) == ("L107", 14)
+    assert found.help == "`second` waits for its own exit; `third` is probably meant"
+
+
+LISTS = """from launch import LaunchDescription
+from launch.actions import OpaqueFunction
+from launch_ros.actions import Node
+
+
+def setup(context):
+    first = Node(package="joy", executable="joy_node", name="first")
+    second = Node(package="joy", executable="joy_node", name="second")
+    third = Node(package="joy", executable="joy_node", name="third")
+    {statement}
+
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=setup)])
+"""
+
+
+@pytest.mark.parametrize(
+    ("statement", "line"),
+    [
+        ("return [\n        first,\n        second,\n    ]", 12),
+        ("nodes = [\n        first,\n        second,\n    ]\n    return LaunchDescription(nodes)", 12),
+        ("return [\n        second\n    ] + list(context)", 11),
+        ("return [first, second] if context else [second]", 9),
+    ],
+)
+def test_an_unused_action_is_reported_at_the_returned_list(tmp_path, statement, line):
+    cart = package(tmp_path / "cart", "joy", "launch", "launch_ros")
+    write(cart / "launch/cart.launch.py", LISTS.format(statement=statement))
+    (found,) = [each for each in lint(cart) if each.code == "L107" and "`third`" in each.message]
+    assert found.line == line
+
+
 @pytest.mark.parametrize(("started", "line"), [("first", 13), ("third", 12)])
 def test_a_handler_that_starts_an_action_again_is_wrong(tmp_path, started, line):
     cart = package(tmp_path / "cart", "joy", "launch", "launch_ros")

@@ -149,6 +149,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("L104", ""), "name", ("L113", "")),
     (("L104", ""), "meant", ("L126", "")),
     (("L104", "name"), "line", ("K980", "")),
+    (("L107", "replaced"), "line", ("L106", "")),
     (("L108", ""), "line", ("K960", "")),
     (("L108", ""), "line", ("K968", "")),
     (("S904", ""), "name", ("J413", "")),

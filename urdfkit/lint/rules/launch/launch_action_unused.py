@@ -59,6 +59,7 @@ class LaunchActionUnused(RobotRule):
         for source, tree in python_files(model):
             created, used, targets = _names(tree)
             unknown: dict[str, ast.Name] | None = None
+            own = _in_place_of(tree) if len(created.keys() - used) == 1 else None
             for name, (node, kind) in created.items():
                 if name in used or used & _SCOPES or re.search(rf"#.*\b{re.escape(name)}\b", source.text):
                     continue
@@ -67,6 +68,10 @@ class LaunchActionUnused(RobotRule):
                     at = _missing_from(tree, node) or node
                     found = self._finding(source, node, kind, name in targets, at)
                     again = _started_again(tree, created) if name in targets else None
+                    if own is not None:
+                        found = self._finding(source, node, kind, False, own)
+                        help = f"`{own.id}` waits for its own exit; `{name}` is probably meant"
+                        found = Finding(**{**found.__dict__, "severity": "error", "help": help, "kind": "replaced"})
                     if again is not None:
                         other = source.span(*place(source, again))
                         help = f"`{again.id}` is started twice"
@@ -86,18 +91,42 @@ class LaunchActionUnused(RobotRule):
 
 def _missing_from(tree: ast.Module, node: ast.Name) -> ast.expr | None:
     """Return the item of the only list of actions after which an action is to be added; None with several lists."""
-    from urdfkit.description.launch.python_constants import name_of
+    from urdfkit.description.launch.python_constants import launch_reader, name_of
 
+    functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)]
+    inside = [each for each in functions if each.lineno < node.lineno <= (each.end_lineno or 0)]
+    if not inside:
+        return None
+    parts = list(ast.walk(max(inside, key=lambda each: each.lineno)))
+    returned = [each.value for each in parts if isinstance(each, ast.Return) and each.value is not None]
     calls = [each for each in ast.walk(tree) if isinstance(each, ast.Call)]
-    lists = [call.args[0] for call in calls if name_of(call.func) == "LaunchDescription" and len(call.args) == 1]
-    is_elsewhere = any(name_of(call.func) in ("GroupAction", "OpaqueFunction", "add_action") for call in calls)
-    listed = lists[0] if len(lists) == 1 and not is_elsewhere else None
+    is_elsewhere = any(name_of(call.func) in ("GroupAction", "add_action") for call in calls)
+    listed = returned[0] if len(returned) == 1 and not is_elsewhere else None
+    if isinstance(listed, ast.Call) and name_of(listed.func) == "LaunchDescription" and len(listed.args) == 1:
+        listed = listed.args[0]
+    if isinstance(listed, ast.Name):
+        listed = launch_reader(tree).assigned.get(listed.id)
+    if isinstance(listed, ast.BinOp):  # `arguments + [first, second]`: the only list that is written out
+        written = [each for each in (listed.left, listed.right) if isinstance(each, ast.List)]
+        listed = written[0] if len(written) == 1 else None
     if not isinstance(listed, ast.List) or not listed.elts or listed.lineno < node.lineno:
         return None
     names = [each for each in ast.walk(tree) if isinstance(each, ast.Name)]
     created = {each.id: each.lineno for each in names if isinstance(each.ctx, ast.Store) and each.lineno < node.lineno}
     before = [item for item in listed.elts if isinstance(item, ast.Name) and item.id in created]
     return max(before, key=lambda item: created[item.id], default=listed.elts[0])
+
+
+def _in_place_of(tree: ast.Module) -> ast.Name | None:
+    """Return the one action that its own event handler starts again, in the place of another one."""
+    found: list[ast.Name] = []
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        words = {word.arg: word.value for word in call.keywords}
+        target, started = words.get("target_action"), words.get("on_exit")
+        items = started.elts if isinstance(started, ast.List) else [started]
+        if isinstance(target, ast.Name):
+            found += [item for item in items if isinstance(item, ast.Name) and item.id == target.id]
+    return found[0] if len(found) == 1 else None
 
 
 def _started_again(tree: ast.Module, created: Mapping[str, object]) -> ast.Name | None:
