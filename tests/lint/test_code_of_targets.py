@@ -184,7 +184,7 @@ def test_targets_of_catkin(tmp_path, monkeypatch, old, new, expected):
 @pytest.mark.parametrize("is_given", [False, True])
 def test_packages_of_own_headers(tmp_path, monkeypatch, package, is_given):
     """A package of the workspace is missing even if an unknown package is given."""
-    header = f'#ifndef CORE_HPP\n#define CORE_HPP\n#include "{package}/msg/load.hpp"\n#endif\n'
+    header = f"{'/' * 100}\n" * 2 + f'#ifndef CORE_HPP\n#define CORE_HPP\n#include "{package}/msg/load.hpp"\n#endif\n'
     used = ("unknown_lib", *((package,) if is_given else ())) if package == "shop_msgs" else (package,) * is_given
     cmake = CMAKE.replace("(core rclcpp)", f"(core {' '.join((*used, 'rclcpp'))})")
     cmake = cmake.replace(

@@ -36,7 +36,7 @@ def _included(path: Path) -> list[str]:
     """Return the headers that a file in C++ includes without a condition."""
     text = path.read_text("utf-8", "replace") if path.stat().st_size <= MAX_BYTES else ""
     text = re.sub(r"(?s)/\*.*?\*/", "", text)
-    guard = re.match(r"(?s)(?:\s|//[^\n]*)*#[ \t]*ifndef\b[^\n]*\n", text)
+    guard = re.match(r"(?:\s|//[^\n]*\n)*#[ \t]*ifndef\b[^\n]*\n", text)
     text = text[guard.end() :] if guard is not None else text
     depth = 0
     found: list[str] = []
