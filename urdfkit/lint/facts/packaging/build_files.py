@@ -54,7 +54,7 @@ class BuildFiles:
         names = {tag.name for tag in root.walk() if tag.name.endswith("depend")} if root is not None else set()
         return {text for text, _ in self.tags(*names)}
 
-    @property
+    @cached_property
     def name(self) -> str:
         """Name of the package."""
         return next((text for text, tag in self.tags("name") if tag.parent is self.root), self.folder.name)

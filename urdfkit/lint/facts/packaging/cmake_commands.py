@@ -76,8 +76,9 @@ def _written_out(found: list[CMakeCommand], lists: dict[str, _Words]) -> list[CM
     at = 0
     while at < len(found):
         command = found[at]
-        end = next((i for i in range(at, len(found)) if found[i].name == "endforeach"), len(found))
         items = _items(command, lists) if command.name == "foreach" else None
+        end = at if items is None else len(found)
+        end = next((i for i in range(at, end) if found[i].name == "endforeach"), end)
         body = found[at + 1 : end]
         if items is None or end == len(found) or any(each.name == "foreach" for each in body):
             result.append(_replaced(command, lists))

@@ -117,9 +117,11 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
     packages = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
     is_whole = not any(command.name == "include" for command in every) and not any("$" in name for name in packages)
     defined = {*_VARIABLES, *_CATKIN, *assigned}
+    places = re.finditer(r"DESTINATION\s+([^\s()]*)", text)
+    destinations = {place.start(1) + use.start() for place in places for use in re.finditer(r"\$\{", place[1])}
     for use in re.finditer(r"\$\{(\w+)\}", text):
         name = use[1]
-        is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", text[: use.start()]) is not None
+        is_destination = use.start() in destinations
         if name in _CATKIN and is_whole and is_destination and "catkin" not in packages and name not in assigned:
             yield BuildDefect(source, use.start(1), name, f"variable `{name}` is empty without find_package(catkin)")
         if name in defined or re.fullmatch(_PROJECT, name):
