@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from time import process_time
+
 import pytest
 
 from tests.lint.test_build_files import MANIFEST, found, write
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.cmake_commands import commands
+from urdfkit.lint.facts.packaging.cmake_defects import cmake_defects
+from urdfkit.lint.facts.packaging.target_code import targets
 
 CMAKE = """cmake_minimum_required(VERSION 3.8)
 project(cart)
@@ -108,6 +116,91 @@ def test_targets_of_ament(tmp_path, monkeypatch, old, new, expected):
     assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
 
 
+BRANCHES = """if(WITH_CORE)
+  add_library(part SHARED src/part.cpp)
+  target_link_libraries(part core)
+else()
+  add_library(part SHARED src/part.cpp)
+  target_link_libraries(part core)
+endif()
+"""
+IN_TESTS = """  add_library(test_dependencies INTERFACE)
+  find_package(ament_lint_auto REQUIRED)
+  ament_lint_auto_find_test_dependencies()
+  ament_add_gtest(test_core test/test_core.cpp)
+"""
+PACKAGE = "target_link_libraries(part core)\n"
+OBJECTS = "target_include_directories(part PUBLIC include)\n"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (f"add_library(part SHARED src/part.cpp)\n{PACKAGE}", BRANCHES),
+        (PACKAGE, "find_package(Protobuf REQUIRED)\ntarget_link_libraries(part core protobuf::libprotobuf)\n"),
+        (PACKAGE, "find_package(Fooo REQUIRED)\ntarget_link_libraries(part core foo::foo)\n"),
+        (
+            f"add_library(part SHARED src/part.cpp)\n{PACKAGE}",
+            f"add_library(part SHARED src/part.cpp $<TARGET_OBJECTS:core>)\n{OBJECTS}",
+        ),
+        (PACKAGE, f"target_sources(part PRIVATE $<TARGET_OBJECTS:core>)\n{OBJECTS}"),
+        ("ament_package()\n", f"if(BUILD_TESTING)\n{IN_TESTS}endif()\nament_package()\n"),
+    ],
+)
+def test_correct_targets_of_ament(tmp_path, monkeypatch, old, new):
+    monkeypatch.chdir(tmp_path)
+    assert CMAKE.count(old) == 1
+    texts = {"CMakeLists.txt": CMAKE.replace(old, new), "test/test_core.cpp": "#include <gtest/gtest.h>\n"}
+    names = ("ament_lint_auto", "ament_cmake_gtest") if "gtest" in new else ()
+    tests = "".join(f"<test_depend>{name}</test_depend>" for name in names)
+    texts["package.xml"] = FILES["package.xml"].replace("</depend><depend>rclcpp<", f"</depend>{tests}<depend>rclcpp<")
+    write(tmp_path, {**FILES, **texts})
+    assert found(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("dependency", "expected"),
+    [
+        ("<depend>nav2_util</depend>", []),
+        ("<exec_depend>nav2_util</exec_depend>", ["target `part` includes headers of `nav_msgs`"]),
+    ],
+)
+def test_packages_that_a_neighbour_brings_are_unknown_unless_tabulated(tmp_path, monkeypatch, dependency, expected):
+    folder = tmp_path / "cart"
+    cmake = CMAKE.replace(
+        "find_package(std_srvs REQUIRED)\n", "find_package(std_srvs REQUIRED)\nfind_package(shop REQUIRED)\n"
+    )
+    cmake = cmake.replace("part rclcpp_components nav_msgs std_srvs", "part rclcpp_components shop std_srvs")
+    write(
+        folder,
+        {
+            **FILES,
+            "CMakeLists.txt": cmake,
+            "package.xml": FILES["package.xml"].replace("<depend>rclcpp<", "<depend>shop</depend><depend>rclcpp<"),
+        },
+    )
+    shop = f"<package format='3'><name>shop</name>{dependency}</package>\n"
+    write(tmp_path / "shop", {"package.xml": shop})
+    monkeypatch.chdir(folder)
+    assert [each.partition(": ")[2].partition(",")[0] for each in found(folder)] == expected
+
+
+def test_the_time_grows_with_the_number_of_targets():
+    def time_of(count):
+        lines = "add_library(part{0} src/part.cpp)\ntarget_link_libraries(part{0} core)\n"
+        lines += "install(TARGETS part{0} DESTINATION lib/${{PROJECT_NAME}})\n"
+        text = CMAKE + "".join(lines.format(f"_{at}") for at in range(count))
+        files = BuildFiles(Path(), Source("package.xml", FILES["package.xml"]), None, None)
+        source = Source("CMakeLists.txt", text)
+        start = process_time()
+        every = commands(source)
+        assert targets(files, every)
+        list(cmake_defects(source, every))
+        return process_time() - start
+
+    assert time_of(800) < 10.0 * max(time_of(200), 0.02)
+
+
 def test_find_package_after_its_use(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     line = "find_package(nav_msgs REQUIRED)\n"
@@ -147,6 +240,7 @@ MANIFEST_OF_CATKIN = """<package format="2">
   <depend>message_runtime</depend>
   <depend>roscpp</depend>
   <depend>std_msgs</depend>
+  <depend>octomap</depend>
 </package>
 """
 
@@ -165,6 +259,13 @@ MANIFEST_OF_CATKIN = """<package format="2">
             "CATKIN_DEPENDS message_runtime rocspp",
             ["10: unknown package `rocspp`; did you mean `roscpp`?"],
         ),
+        (
+            "catkin_package(CATKIN_DEPENDS message_runtime roscpp std_msgs)",
+            "find_package(octomap REQUIRED)\ncatkin_package(CATKIN_DEPENDS message_runtime roscpp DEPENDS octomap)",
+            [],
+        ),
+        ("  roscpp\n", '  roscpp\n  ""\n', []),
+        ("(drive src/drive.cpp)", "(drive src/drive.cpp)\nadd_library(part src/drive.cpp)", []),
         ("CATKIN_DEPENDS", "DEPENDS", ["10: `roscpp` is a package of catkin, which belongs to CATKIN_DEPENDS"]),
     ],
 )

@@ -39,10 +39,13 @@ _PROVIDED = {
     "rosgraph_msgs": "builtin_interfaces",
     "lifecycle_msgs": "",
     "composition_interfaces": "rcl_interfaces",
-    "rclcpp": "builtin_interfaces rcl_interfaces rosgraph_msgs ament_index_cpp rcpputils rcutils",
-    "rclcpp_lifecycle": "rclcpp lifecycle_msgs",
+    "rclcpp": "builtin_interfaces rcl_interfaces rosgraph_msgs ament_index_cpp rcpputils rcutils rcl rmw"
+    " statistics_msgs tracetools rcl_yaml_param_parser libstatistics_collector rcl_logging_interface rosidl_runtime_cpp"
+    " rosidl_dynamic_typesupport rosidl_typesupport_c rosidl_typesupport_cpp rosidl_runtime_c service_msgs"
+    " type_description_interfaces",
+    "rclcpp_lifecycle": "rclcpp lifecycle_msgs rcl rcl_lifecycle rmw",
     "rclcpp_components": "rclcpp composition_interfaces class_loader",
-    "rclcpp_action": "rclcpp action_msgs",
+    "rclcpp_action": "rclcpp action_msgs rcl rcl_action",
     "ament_index_cpp": "",
     "rcpputils": "rcutils",
     "rcutils": "",
@@ -98,6 +101,9 @@ _NEEDED = {
 }
 """Command → the packages that define it; one of them suffices."""
 
+_PLAIN = frozenset(("orocos_kdl", "octomap", "urdfdom_headers", "urdfdom", "console_bridge", "fcl", "ompl"))
+"""Packages of ROS that are packages of CMake without catkin."""
+
 _OPEN = re.compile(r"include|ament_auto_\w+|add_subdirectory|find_\w+_dependencies|fetchcontent_\w+")
 """Matches commands that can find further packages."""
 
@@ -110,7 +116,7 @@ def found_packages(every: list[CMakeCommand]) -> dict[str, int] | None:
             return None
         if command.name != "find_package":
             continue
-        for word, _ in command.words[:1] if not _components(command) else (*command.words[:1], *_components(command)):
+        for word, _ in (*command.words[:1], *_components(command)):
             if "$" in word:
                 return None
             found.setdefault(word, at)
@@ -122,11 +128,12 @@ def _components(command: CMakeCommand) -> tuple[tuple[str, int], ...]:
     words = [word for word, _ in command.words]
     if words[:1] != ["catkin"]:
         return ()
-    return tuple((word, start) for word, start in command.words[1:] if not word.isupper() and not word[0].isdigit())
+    components = command.words[1:]
+    return tuple((word, start) for word, start in components if not word.isupper() and not word[:1].isdigit() and word)
 
 
 def provided(packages: Collection[str], near: Mapping[str, Path]) -> set[str] | None:
-    """Return packages with the packages they can provide; None if one of them is unknown.
+    """Return packages with the packages they can provide; None if they or their neighbours need unknown ones.
 
     Args:
         packages: names of packages.
@@ -139,7 +146,11 @@ def provided(packages: Collection[str], near: Mapping[str, Path]) -> set[str] | 
             continue
         found.add(name)
         if name in near:
-            left += dependencies_in(manifest(near[name]))
+            text = manifest(near[name])
+            left += dependencies_in(text)
+            of_code = dependencies_in(re.sub(r"<(?:exec|test|doc|buildtool)_depend\b[^<]*", "", text))
+            if any(each not in near and each not in _PROVIDED for each in of_code):
+                return None
         elif name in _PROVIDED:
             left += _PROVIDED[name].split()
         elif name in packages:
@@ -154,6 +165,9 @@ def package_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
         return
     near = neighbours(files.folder)
     covered = provided(found, near)
+    if any(each.name == "ament_lint_auto_find_test_dependencies" for each in every):
+        found = {**{name: 0 for name, _ in files.tags("test_depend")}, **found}
+    folded = {name.lower() for name in found}
     reported = set[str]()
     for at, word, start in _uses(every):
         if word in reported or word == files.name:
@@ -165,7 +179,11 @@ def package_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
                 message = f"find_package({word}) is called after {every[at].name}(), which uses it"
                 yield BuildDefect(source, command.start, command.name, message)
             continue
-        slip = next((name for name in found if is_slip(word, name)), None)
+        is_target = every[at].name == "target_link_libraries"
+        if is_target and word.lower() in folded:
+            continue  # imported targets can be written in another way than their package
+        candidates = [name for name in found if not is_target or name in names() or name in near]
+        slip = next((name for name in candidates if is_slip(word, name)), None)
         if slip is not None and word not in names() and word not in near:
             reported.add(word)
             yield BuildDefect(source, start, word, f"unknown package `{word}`" + Suggestion(slip, word))
@@ -236,6 +254,7 @@ def _exported(
 ) -> Iterator[BuildDefect]:
     """Yield misspelt packages of ament_export_dependencies() and catkin_package(), and catkin packages in DEPENDS."""
     declared = {*files.dependencies(), *found}
+    of_catkin = {word for each in every if each.name == "find_package" for word, _ in _components(each)}
     for command in every:
         if command.name not in ("ament_export_dependencies", "catkin_package"):
             continue
@@ -249,7 +268,7 @@ def _exported(
                 near = next((name for name in sorted(declared) if is_slip(word, name)), None)
                 if near is not None:
                     yield BuildDefect(source, start, word, f"unknown package `{word}`" + Suggestion(near, word))
-            elif key == "DEPENDS" and word in files.dependencies() and word in found and word in names():
+            elif key == "DEPENDS" and word in of_catkin - _PLAIN and word in names():
                 message = f"`{word}` is a package of catkin, which belongs to CATKIN_DEPENDS"
                 yield BuildDefect(source, start, word, message)
                 break

@@ -57,12 +57,14 @@ class Target:
         added: the command that defines it.
         uses: commands with its packages, libraries and folders of headers.
         sources: its source files in the package.
+        objects: the libraries of the package whose object files it contains.
     """
 
     name: str
     added: CMakeCommand
     uses: list[CMakeCommand]
     sources: list[Path]
+    objects: list[str]
 
     @cached_property
     def words(self) -> list[str]:
@@ -98,22 +100,40 @@ class Target:
 
 
 def targets(files: BuildFiles, every: list[CMakeCommand]) -> dict[str, Target] | None:
-    """Return the targets of the package, tests included; None if their names are computed."""
+    """Return the targets of the package, tests included; None if their names are computed.
+
+    None as well if a target has several definitions, as in branches of a condition: none of them counts alone.
+    """
     found: dict[str, Target] = {}
+    uses: dict[str, list[CMakeCommand]] = {}
+    objects: dict[str, list[str]] = {}
+    for command in every:
+        if command.name in _USES and command.words:
+            uses.setdefault(_named(command, files), []).append(command)
+        elif command.name in (*_ADDING, "target_sources") and command.words:
+            matches = (re.fullmatch(r"\$<TARGET_OBJECTS:(.+)>", word) for word, _ in command.words)
+            names_of_objects = [_without_project(each[1], files) for each in matches if each is not None]
+            objects.setdefault(_named(command, files), []).extend(names_of_objects)
     for command in every:
         if not command.words or not (command.name in _ADDING or re.fullmatch(_TESTING, command.name)):
             continue
-        texts = [re.sub(r"\$\{(?:CMAKE_)?PROJECT_NAME\}", files.name, word) for word, _ in command.words]
+        texts = [_without_project(word, files) for word, _ in command.words]
         if "$" in texts[0]:
             return None
-        uses = [each for each in every if each.name in _USES and each.words and _named(each, files) == texts[0]]
+        if texts[0] in found:
+            return None
         sources = [files.folder / word for word in texts[1:] if re.fullmatch(_CODE, word) and "$" not in word]
-        found[texts[0]] = Target(texts[0], command, uses, [path for path in sources if path.is_file()])
+        code = [path for path in sources if path.is_file()]
+        found[texts[0]] = Target(texts[0], command, uses.get(texts[0], []), code, objects.get(texts[0], []))
     return found
 
 
 def _named(command: CMakeCommand, files: BuildFiles) -> str:
-    return re.sub(r"\$\{(?:CMAKE_)?PROJECT_NAME\}", files.name, command.words[0][0])
+    return _without_project(command.words[0][0], files)
+
+
+def _without_project(word: str, files: BuildFiles) -> str:
+    return re.sub(r"\$\{(?:CMAKE_)?PROJECT_NAME\}", files.name, word) if "$" in word else word
 
 
 def _linked(target: Target, own: Mapping[str, Target], files: BuildFiles) -> set[str]:
@@ -123,8 +143,8 @@ def _linked(target: Target, own: Mapping[str, Target], files: BuildFiles) -> set
         name = left.pop()
         if name in own and name not in found:
             found.add(name)
-            words = [re.sub(r"\$\{(?:CMAKE_)?PROJECT_NAME\}", files.name, word) for word in own[name].words]
-            left += [word.rpartition("::")[2] for word in words]
+            left += [_without_project(word, files).rpartition("::")[2] for word in own[name].words]
+            left += own[name].objects
     return found
 
 
@@ -174,8 +194,10 @@ def _libraries(
             yield BuildDefect(source, early.start, early.name, message)
         for command in target.uses:
             for word, start in command.words[1:] if command.name == "target_link_libraries" else ():
-                near = next((name for name in own if is_slip(word, name) and name != target.name), None)
-                if near is not None and word not in own and word not in names() and re.fullmatch(r"\w+", word):
+                is_defined = word in own or word in names() or not re.fullmatch(r"\w+", word)
+                others = (name for name in own if is_slip(word, name) and name != target.name)
+                near = None if is_defined else next(others, None)
+                if near is not None:
                     message = f"no command defines the library `{word}`" + Suggestion(near, word)
                     yield BuildDefect(source, start, word, message)
 
@@ -183,12 +205,15 @@ def _libraries(
 def _without_catkin(
     source: Source, target: Target, own: Mapping[str, Target], files: BuildFiles
 ) -> Iterator[BuildDefect]:
-    """Yield a target with the headers of roscpp that is not linked with the libraries of catkin."""
-    if not any(header in ("ros/ros.h", "nodelet/nodelet.h") for _, header in target.headers):
+    """Yield an executable with the headers of roscpp that is not linked with the libraries of catkin.
+
+    A library can be linked without them; its executables then name them.
+    """
+    is_user = any(header in ("ros/ros.h", "nodelet/nodelet.h") for _, header in target.headers)
+    if target.added.name != "add_executable" or not is_user:
         return
     words = [word for name in _linked(target, own, files) for word in own[name].words]
-    is_test = target.added.name not in _ADDING
-    if is_test or any("LIBRAR" in word or word == "roscpp" for word in words):
+    if any("LIBRAR" in word or word == "roscpp" for word in words):
         return
     if not any("$" in word and "PROJECT_NAME" not in word and "<" not in word for word in words):
         message = f"target `{target.name}` is not linked with `${{catkin_LIBRARIES}}`"
