@@ -34,7 +34,7 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
         (model(links("a", "b", "c", "d")), "2:17", "4 root links: `b`, `c`, `d` have no parent joint"),
         (model(links("a", "b"), joint("j", "a", "b"), joint("k", "b", "a")), "4:1", "the joints form a loop: b → a → b"),
         (model(links("r", "a", "b"), joint("j", "a", "b"), joint("k", "b", "a")), "4:1", "loop"),
-        (model(links("a"), joint("j", "a", "a")), "3:1", "joint `j` connects link `a` with itself"),
+        (model(links("a"), joint("j", "a", "a")), "3:30", "joint `j` connects link `a` with itself"),
         (model(links("a", "b", "c"), joint("j", "a", "c"), joint("k", "b", "c")), "4:48", "link `c` is the child of two joints, `j` (m.urdf:3:1) and `k`"),
         (model(links("a", "a")), "2:17", "two links are named `a`; the first is at m.urdf:2:1"),
         (model(links("a", "b", "c"), joint("j", "a", "b"), joint("j", "a", "c")), "4:1", "two joints are named `j`"),

@@ -218,6 +218,7 @@ DOCKING = """docking_server:
     dock_plugins: [charger]
     docks: [home]
     home: {type: charger, frame: map, pose: [0.0, 0.0, 0.0]}
+    charger: {plugin: opennav_docking::SimpleChargingDock}
 controller_server:
   ros__parameters: {enable_stamped_cmd_vel: true}
 behavior_server:
@@ -232,7 +233,7 @@ behavior_server:
         (
             "server:\n  ros__parameters: {enable_stamped_cmd_vel: true",
             "server:\n  ros__parameters: {enable_stamped_cmd_vel: false",
-            8,
+            9,
             "is false, but true for the other nodes",
         ),
     ],

@@ -30,5 +30,5 @@ def _at_attribute(repair: Repair, sources: WrittenAttributes) -> Repair:
     attribute = repair.attribute or _ATTRIBUTES.get(repair.code or "")
     if attribute is None or repair.position is None:
         return repair
-    written = sources.at(repair.position, attribute)
+    written = sources.at(repair.position, attribute) or sources.at(repair.position, "link")  # of <parent> and <child>
     return repair if written is None else replace(repair, position=written.name.start)

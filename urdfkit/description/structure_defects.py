@@ -1,5 +1,6 @@
 """Structure of a robot: the defects that keep its links from being one valid tree, and a robot without them."""
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -99,6 +100,7 @@ class _Structure:
         undefined: dict[str, Element] = {}
         kept: dict[str, Joint] = {}
         meant = likely_children(self.robot, most=_HINTS)
+        parents = Counter(joint.child for joint in self.joints)
         for joint in self.joints:
             for end, name in (("parent", joint.parent), ("child", joint.child)):
                 if name is None and joint.element.find(end) is None:
@@ -130,7 +132,8 @@ class _Structure:
                 continue
             if is_loop(joint):
                 message = f"joint `{joint.name}` connects link `{joint.child}` with itself"
-                self._add(message, LEFT_OUT, "T204", joint.element, link=joint.child, joint=joint.name)
+                element = joint.element.find("parent" if parents[joint.child] == 1 else "child") or joint.element
+                self._add(message, LEFT_OUT, "T204", element, link=joint.child, joint=joint.name)
                 self._detached.setdefault(joint.child, len(self.defects) - 1)
                 continue
             joint = self._movable(joint)

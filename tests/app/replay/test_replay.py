@@ -196,7 +196,7 @@ def test_files_that_are_no_recordings_are_refused(name: str, content: bytes, rea
     with pytest.raises(ResourceError) as refused:
         BagFile(tmp_path / name)
     assert str(refused.value) == f"{tmp_path / name} is not a recording: {reason}"
-    with pytest.raises(ResourceError, match="no file"):
+    with pytest.raises(ResourceError, match="no such file"):
         BagFile(tmp_path / "missing.mcap")
 
 

@@ -273,7 +273,7 @@ def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkey
     fixed = mend(path)
     assert fixed.changes == ()
     (note,) = fixed.notes
-    assert "was not fixed: the fix would have caused T202 at r.urdf:13, " in note
+    assert "was not fixed: the fix would have caused T202 at r.urdf:3, " in note
 
 
 @pytest.mark.git

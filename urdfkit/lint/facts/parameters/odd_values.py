@@ -58,7 +58,7 @@ def odd_values(source: Source, model: Model) -> Defects:
         yield from _misspelt_joints(node, model)
         yield from _misspelt_frames(node, model)
         yield from _misspelt_parameters(node)
-        yield from misspelt_classes(node)
+        yield from misspelt_classes(node, model)
         for key, value in node.entries:
             if re.fullmatch(_LISTS_OF_NAMES, key.text):
                 yield from _repeated(key, value)

@@ -12,9 +12,11 @@ from functools import cache, lru_cache
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.control.controller_types import TYPES
+from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
 from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.facts.navigation.tables import PLUGINS
 from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.model.model import Model
 
 Defects = Iterator[tuple[Node, str]]
 
@@ -62,7 +64,7 @@ def _nearest_class(name: str) -> str:
     return next((each for each in near if is_slip(name, each)), "")
 
 
-def misspelt_classes(node: Node) -> Defects:
+def misspelt_classes(node: Node, model: Model) -> Defects:
     """Yield the classes and topics of costmaps in a group that differ by a slip from known ones, and their keys."""
     keys = {key.text for key, _ in node.entries}
     for key, value in node.entries:
@@ -70,9 +72,10 @@ def misspelt_classes(node: Node) -> Defects:
             if item.kind != "text":
                 continue
             if re.fullmatch(_CLASS, item.text):
-                near = _nearest_class(item.text.replace("::", "/"))
+                kind = item.text.replace("::", "/")
+                near = _nearest_class(kind)
                 right = near.replace("/", "::") if "::" in item.text else near
-                if near:
+                if near and not is_exported_plugin(model, kind):
                     yield item, f"unknown plugin `{item.text}`" + Suggestion(right, item.text)
             elif "costmap/" in item.text or item.text.endswith(_ENDS):
                 name = item.text.strip("/")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from functools import cached_property
 
 from urdfkit.description.urdf.robot import Link
@@ -112,7 +113,9 @@ def _at(name: str, text: str) -> Iterator[int]:
 
 def with_renamed_definitions(findings: list[Finding], model: Model) -> list[Finding]:
     """Return the findings; those on uses of a link or joint that has another name have its definition as other side."""
-    lacking = [each for each in findings if _OF_NAMES.match(each.code) and each.other is None]
+    lacking = [
+        each for each in findings if _OF_NAMES.match(each.code) and each.other is None and each.severity != "note"
+    ]
     if not any(each.meant for each in lacking):
         return findings
     parts: dict[str, Link | Joint] = {**model.robot.joint_by_name, **model.robot.link_by_name}
@@ -132,10 +135,10 @@ def with_renamed_definitions(findings: list[Finding], model: Model) -> list[Find
             renamed.setdefault(finding.suggestion.written, finding.meant)
             meant.setdefault(at, finding.meant)
     definitions = RenamedDefinitions(model)
+    parts_at = Counter(part.element.origin.position for part in parts.values())
     places: dict[str, tuple[Span, str]] = {}
     for at, names in uses.items():
-        alike = [part for part in parts.values() if part.element.origin.position == at]
-        if len(alike) > len(set(names.values())):  # Other calls of the macro define names that are used.
+        if parts_at[at] > len(set(names.values())):  # Other calls of the macro define names that are used.
             continue
         pairs = {name: renamed[name] for name in names.values()}
         if all(definitions.is_wrong(other, name, (at.file, at.line), len(names)) for name, other in pairs.items()):
@@ -143,7 +146,8 @@ def with_renamed_definitions(findings: list[Finding], model: Model) -> list[Find
             for name, other in pairs.items():
                 message = f"{kind} `{other}` is not used; did you mean `{name}`, which is used but undefined?"
                 places[name] = model.span(at, "name"), message
-    return [_moved(finding, places) if finding in lacking else finding for finding in findings] if places else findings
+    moved = {id(finding): _moved(finding, places) for finding in lacking} if places else {}
+    return [moved.get(id(finding), finding) for finding in findings]
 
 
 def _moved(finding: Finding, places: dict[str, tuple[Span, str]]) -> Finding:
