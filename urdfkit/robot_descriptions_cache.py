@@ -11,7 +11,6 @@ from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.errors import ResourceError, did_you_mean, nearest
-from urdfkit.missing_files import expanded_path
 from urdfkit.record import record
 
 _MAX_DEPTH = 20
@@ -90,7 +89,8 @@ def _package() -> Path | None:
 
 
 def _cache() -> Path:
-    return expanded_path(os.environ.get("ROBOT_DESCRIPTIONS_CACHE", "~/.cache/robot_descriptions"))
+    folder = os.environ.get("ROBOT_DESCRIPTIONS_CACHE", "~/.cache/robot_descriptions")
+    return Path(os.path.expanduser(folder))  # noqa: PTH111 (Path.expanduser() fails for unknown users)
 
 
 class _Constants:
