@@ -6,6 +6,7 @@ import pytest
 
 from tests.lint.test_build_files import MANIFEST, found, write
 from tests.lint.test_code_of_targets import CATKIN, MANIFEST_OF_CATKIN
+from tests.lint.test_messages_and_targets import FILES as MESSAGES_OF_ROS2
 from tests.lint.test_plugins_and_installation import FILES
 
 MODULES = """from distutils.core import setup
@@ -255,3 +256,49 @@ def test_imports_need_packages_at_run_time(tmp_path, monkeypatch):
     write(tmp_path, {"package.xml": texts["package.xml"].replace("exec_depend", "build_depend")})
     message = "Python code imports `rclpy`, but <build_depend> does not install it at run time"
     assert found(tmp_path) == [f"package.xml:9: {message}"]
+
+
+def test_plugins_that_class_loader_registers(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code = FILES["src/plans.cpp"].replace("PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
+    write(tmp_path, FILES | {"src/plans.cpp": code})
+    assert found(tmp_path) == []
+
+
+def test_generated_messages_that_are_not_installed(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    group = "  <member_of_group>rosidl_interface_packages</member_of_group>\n"
+    cmake = MESSAGES_OF_ROS2["CMakeLists.txt"].replace(
+        "DEPENDENCIES std_msgs\n", "DEPENDENCIES std_msgs\n  SKIP_INSTALL\n"
+    )
+    files = {"CMakeLists.txt": cmake, "package.xml": MESSAGES_OF_ROS2["package.xml"].replace(group, "")}
+    write(tmp_path, MESSAGES_OF_ROS2 | files)
+    assert found(tmp_path) == []
+
+
+def test_nodes_of_packages_of_tests_need_test_dependencies_only(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    manifest = OF_CATKIN["package.xml"].replace("<depend>roscpp</depend>", "<build_depend>roscpp</build_depend>")
+    assert manifest != OF_CATKIN["package.xml"]
+    write(tmp_path, OF_CATKIN | {"package.xml": manifest})
+    assert len(found(tmp_path)) == 1
+    for name in ("package.xml", "CMakeLists.txt"):
+        text = (tmp_path / name).read_text()
+        (tmp_path / name).write_text(
+            text.replace("<name>cart<", "<name>test_cart<").replace("project(cart)", "project(test_cart)")
+        )
+    assert [each for each in found(tmp_path) if "roscpp" in each] == []
+
+
+def test_a_package_of_the_system_covers_the_package_that_cmake_finds(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    cmake = FILES["CMakeLists.txt"].replace(
+        "find_package(rclcpp R", "find_package(urdfdom_headers REQUIRED)\nfind_package(rclcpp R"
+    )
+    write(tmp_path, FILES | {"CMakeLists.txt": cmake})
+    assert ["missing dependency on `urdfdom_headers`" in each for each in found(tmp_path)] == [True]
+    manifest = FILES["package.xml"].replace(
+        "<depend>rclcpp<", "<build_depend>liburdfdom-headers-dev</build_depend><depend>rclcpp<"
+    )
+    write(tmp_path, {"package.xml": manifest})
+    assert found(tmp_path) == []

@@ -29,6 +29,8 @@ def wrong_kinds(
         built: the packages that CMakeLists.txt finds.
         imported: the packages that Python code imports.
     """
+    if re.search(r"(?:^|_)tests?(?:_|$)", files.name):  # It is not installed: its nodes run in tests only.
+        return
     root, cmake = files.root, files.cmake.text if files.cmake is not None else ""
     kinds: dict[str, list[Tag]] = {}
     for text, tag in files.tags(*{tag.name for tag in root.children if tag.name.endswith("depend")}) if root else ():

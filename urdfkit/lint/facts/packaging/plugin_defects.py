@@ -79,7 +79,7 @@ def plugin_defects(files: BuildFiles, cmake: Source, every: list[CMakeCommand]) 
     if any("$" in name for name in names):
         return
     plugins = [macro for macro in macros if macro.kind.startswith("PLUGINLIB")]
-    if plugins or (described and texts):
+    if (plugins or (described and texts)) and not any("CLASS_LOADER_REGISTER_CLASS" in text for text in texts.values()):
         yield from _classes(described, plugins, texts)
     for source in described:
         name = Path(source.file).name

@@ -58,7 +58,7 @@ def message_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
                 seen.add(package)
                 message = f"`{path.name}` uses `{package}`, which is missing in DEPENDENCIES"
                 yield BuildDefect(source, start, word, message)
-    if not is_catkin:
+    if not is_catkin and "SKIP_INSTALL" not in words:
         yield from _manifest_of_interfaces(files)
 
 

@@ -196,7 +196,8 @@ class PackageXmlDependency(RobotRule):
                 span = files.manifest.span(tag.start, tag.close_end)
                 yield self.at_span(span, message, help=help, names=(name,))
             for source, name, start, end in uses:
-                is_covered = name in _COVERED and _COVERED[name] in needed
+                of_system = f"lib{name.replace('_', '-')}-dev"  # for example liburdfdom-headers-dev
+                is_covered = of_system in needed or (name in _COVERED and _COVERED[name] in needed)
                 if name not in {*needed, files.name} and not is_covered and not is_in_metapackage(name, needed):
                     yield self._missing(name, source, start, end, set())
 
