@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.engine.checker import model_of
 from urdfkit.lint.facts.control.yaml_tree import nodes
 from urdfkit.lint.facts.plugins.class_names import misspelt_classes
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.options import Options
 
 
-def messages(text: str) -> list[str]:
+@pytest.fixture
+def model(tmp_path: Path) -> Model:
+    (tmp_path / "cart.urdf").write_text('<robot name="cart"><link name="base"/></robot>')
+    return model_of(tmp_path / "cart.urdf", Options())
+
+
+def messages(text: str, model: Model) -> list[str]:
     """Return the messages for a YAML file."""
-    return [m for node in nodes(Source("filters.yaml", text)) for _, m in misspelt_classes(node)]
+    return [m for node in nodes(Source("filters.yaml", text)) for _, m in misspelt_classes(node, model)]
 
 
 @pytest.mark.parametrize(
@@ -25,8 +36,8 @@ def messages(text: str) -> list[str]:
         ("costmap_topic: /locl_costmap/costmap_raw", "did you mean `/local_costmap/costmap_raw`"),
     ],
 )
-def test_a_slip_is_reported(text: str, expected: str) -> None:
-    (found,) = messages(text)
+def test_a_slip_is_reported(text: str, expected: str, model: Model) -> None:
+    (found,) = messages(text, model)
     assert expected in found
 
 
@@ -40,5 +51,5 @@ def test_a_slip_is_reported(text: str, expected: str) -> None:
         "costmap_topic: front_costmap/costmap_raw",
     ],
 )
-def test_other_classes_and_topics_are_accepted(text: str) -> None:
-    assert messages(text) == []
+def test_other_classes_and_topics_are_accepted(text: str, model: Model) -> None:
+    assert messages(text, model) == []
