@@ -9,7 +9,10 @@ from urdfkit.sim import Simulator
 
 
 class Driver:
-    """Commands what a driver would who does not look: twists, and positions of joints that have a topic for them."""
+    """Commands what a driver would who does not look: twists, and positions of joints that have a topic for them.
+
+    A robot that no topic moves, such as a legged one without controllers, gets its positions from the motors.
+    """
 
     def __init__(self, simulator: Simulator, random: np.random.Generator) -> None:
         self._simulator = simulator
@@ -18,6 +21,8 @@ class Driver:
         listened = [topic for topic in simulator.bus.topics if topic.subscribers]
         self._positions = [topic for topic in listened if topic.type == "std_msgs/msg/Float64"]
         self._trajectories = [topic for topic in listened if topic.type == "trajectory_msgs/msg/JointTrajectory"]
+        self.by_motors = not (self._positions or self._trajectories or simulator.command_topics)
+        """Whether no topic moves the robot."""
 
     def drive(self, t: float, *, resting: bool) -> None:
         """Command something else when it is time to."""
@@ -29,6 +34,10 @@ class Driver:
         if t < self._until:
             return
         self._until = t + self._random.uniform(0.5, 3.0)
+        if self.by_motors:
+            for name in filter(self._is_free, self._simulator.kinematics.joint_names):
+                lower, upper = self._simulator.kinematics.limits(name)
+                self._simulator.motors.hold(name, self._random.uniform(max(lower, -1.5), min(upper, 1.5)))
         self._twist(tuple(self._random.uniform(-1.0, 1.0, 3) * (1.0, 0.5, 2.0)))
         for topic in self._positions:
             value = {"data": float(self._random.uniform(-1.5, 1.5))}

@@ -146,8 +146,8 @@ class Watch:
                 if abs(state.position(name) - follows) > BEYOND_LIMIT:
                     found.fault("mimic", t, name)
 
-    def is_lost(self) -> bool:
-        """Whether a driver would put the robot back: it lies on its side, or left."""
+    def is_lost(self, *, may_lie: bool) -> bool:
+        """Whether a driver would put the robot back: it left, or lies on its side and may not."""
         if not self.simulator.kinematics.floating_base:
             return False
         x, y, _, qx, qy, _, _ = self.simulator.state.base_pose
@@ -156,7 +156,7 @@ class Watch:
             self.walls.low[0] - ROOM < x < self.walls.high[0] + ROOM
             and self.walls.low[1] - ROOM < y < self.walls.high[1] + ROOM
         )
-        return upright < TIPPED or outside
+        return outside or (upright < TIPPED and not may_lie)
 
     def _points(self) -> Array:
         """Return the middles of the robot's links that can touch something, then those of bodies; shape (n, 3)."""
