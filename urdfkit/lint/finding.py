@@ -187,6 +187,7 @@ class EntryResult:
         findings: findings that no comment suppresses.
         files: name in findings → absolute path, for every file read.
         note: one line with the guessed target and the reason; empty if no target was guessed.
+        target: the guessed target; empty if no target was guessed.
         used: position of each comment that suppresses findings of this entry, with a code.
         unused: position of each comment with unused suppressions, with their codes; without codes if it has none.
         without_robot: name of the package, if it has no robot, so that only its other files were linted.
@@ -200,6 +201,7 @@ class EntryResult:
     refused: str = ""
     unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
     without_robot: str = ""
+    target: str = ""
 
 
 def suggestion_of(*texts: str | None) -> Suggestion | None:

@@ -55,6 +55,16 @@ def test_a_run_says_what_it_was_for_and_each_package_has_its_own(write):
     assert run(entries, Options()).findings == ()
 
 
+def test_many_packages_of_one_target_have_one_note(write):
+    entries = []
+    for name in ("a", "b", "c", "d"):
+        write(f"{name}/package.xml", f"<package><name>{name}</name>{CATKIN}</package>")
+        entries.append(Entry(write(f"{name}/r.urdf", '<link name="l"/>')))
+    assert len(run(entries[:3], Options(guess_target=True)).notes) == 3
+    note = "linted for ros1: a is built with catkin; also 3 other packages"
+    assert run(entries, Options(guess_target=True)).notes == (note,)
+
+
 @pytest.mark.parametrize(
     "name",
     [

@@ -105,7 +105,7 @@ class Cache:
             )  # written by urdfkit, complete, and by this Python version, as marshal requires
             if not self._holds(kept, entry):
                 return None
-            parts = {name: kept[name] for name in ("files", "note", "used", "unused", "without_robot")}
+            parts = {name: kept[name] for name in ("files", "note", "used", "unused", "without_robot", "target")}
             found = EntryResult(tuple(map(_finding, kept["findings"])), **parts)
         except (OSError, ValueError, EOFError, KeyError, TypeError, RuntimeError):
             return None
@@ -158,6 +158,7 @@ class Cache:
                 "used": found.used,
                 "unused": found.unused,
                 "without_robot": found.without_robot,
+                "target": found.target,
             },
         )
 

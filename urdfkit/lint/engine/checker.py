@@ -185,7 +185,7 @@ class Checker:
             return self._examine(entry, arguments)
 
     def _examine(self, entry: Entry, arguments: Mapping[str, str] | None) -> tuple[EntryResult, Model]:
-        options, note = self.options, ""
+        options, note, target = self.options, "", ""
         if arguments is not None:
             options = Options(**{**options.__dict__, "arguments": arguments})
         if options.guess_target and options.target is None:
@@ -193,8 +193,9 @@ class Checker:
 
             guessed = guess(entry.path)
             if guessed.target is not None and guessed.manifest is not None:
-                options = Options(**{**options.__dict__, "target": guessed.target})
-                note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
+                target = guessed.target
+                options = Options(**{**options.__dict__, "target": target})
+                note = f"linted for {target}: {guessed.manifest.parent.name} {guessed.why}"
         if options.select:
             from urdfkit.lint.engine.inapplicable import inapplicable
 
@@ -202,7 +203,7 @@ class Checker:
         packages, clean = self.packages.near_file(entry.path), self.runner.clean
         facts = clean.facts if clean is not None else None
         if not entry.has_robot:
-            return self._check_package(entry, options, packages, note)
+            return self._check_package(entry, options, packages, note, target)
         model = model_of(entry.path, options, packages=packages, memory=self.memory, facts=facts)
         self.sources.update(model.expanded.sources)
         self.runner.failures = []
@@ -234,10 +235,11 @@ class Checker:
         read = (*model.expanded.sources, *related, *(each.file for each in findings))  # such as YAML files of xacro
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
         findings = _only(entry, findings)
-        return EntryResult(tuple(findings), files, note, used, "; ".join(self.runner.failures), unused), model
+        refused = "; ".join(self.runner.failures)
+        return EntryResult(tuple(findings), files, note, used, refused, unused, target=target), model
 
     def _check_package(
-        self, entry: Entry, options: Options, packages: Packages, note: str
+        self, entry: Entry, options: Options, packages: Packages, note: str, target: str
     ) -> tuple[EntryResult, Model]:
         """Return the findings in the launch, YAML and build files of a package without a robot, and its model."""
         model = package_model(entry.path, options, packages)
@@ -251,7 +253,7 @@ class Checker:
         is_included = any(next(folder.rglob(end), None) for end in ("*.urdf", "*.xacro"))  # by other packages
         name = "" if is_included else folder.name
         found, refused = tuple(_only(entry, findings)), "; ".join(self.runner.failures)
-        return EntryResult(found, files, note, refused=refused, without_robot=name), model
+        return EntryResult(found, files, note, refused=refused, without_robot=name, target=target), model
 
 
 def _only(entry: Entry, findings: list[Finding]) -> list[Finding]:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 _MIN_PARALLEL = 8
 """Minimum number of files for which several processes are faster."""
+_LISTED_TARGETS = 3
+"""Maximum number of packages of one target that have a note each."""
 
 
 @record(eq=False)
@@ -101,14 +103,23 @@ def run(
 
 
 def _notes(results: list[EntryResult]) -> tuple[str, ...]:
-    """Return the notes of results once, those on packages without a robot as one."""
+    """Return the notes of results once; one line for many packages of one target, and one for those without a robot."""
+    of_targets: dict[str, dict[str, None]] = {}
+    for one in results:
+        if one.target and one.note:
+            of_targets.setdefault(one.target, {})[one.note] = None
+    note_of = {
+        each: f"{next(iter(notes))}; also {len(notes) - 1} other packages" if len(notes) > _LISTED_TARGETS else each
+        for notes in of_targets.values()
+        for each in notes
+    }
     names = list(dict.fromkeys(one.without_robot for one in results if one.without_robot))
     if len(names) > 1:
         shown = ", ".join(names[:3]) + (" …" if len(names) > 3 else "")
-        notes = dict.fromkeys(one.note for one in results if one.note and not one.without_robot)
+        notes = dict.fromkeys(note_of.get(one.note, one.note) for one in results if one.note and not one.without_robot)
         return (*notes, f"{len(names)} packages have no robot: only their other files are linted ({shown})")
     without = {name: f"{name} has no robot: only its other files are linted" for name in names}
-    parts = (filter(None, (one.note, without.get(one.without_robot))) for one in results)
+    parts = (filter(None, (note_of.get(one.note, one.note), without.get(one.without_robot))) for one in results)
     return tuple(dict.fromkeys(filter(None, map("; ".join, parts))))
 
 

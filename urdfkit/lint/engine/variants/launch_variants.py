@@ -137,6 +137,7 @@ def with_variants(
         tuple(dict.fromkeys(place for result, _, _ in every for place in result.used)),
         "; ".join(dict.fromkeys(result.refused for result, _, _ in every if result.refused)),
         found.unused,
+        target=found.target,
     )
     return merged, [each for _, each, _ in every[1:]]
 
