@@ -31,6 +31,7 @@ CORRECT = {
     "other styles": "a_frame: base\nb_frame: odom\nmap_frame: map\nocc_thresh: 0.2\nmap_z: 3\nmap_x: 3\nmaxUrange: 3",
     "buses": "interfaces: [can0, can0, can1, can1]\ncritics: [a, a, b, b]",
     "sector over zero": "min_angle: 300.0\nmax_angle: 60.0\nservo_min: 2500\nservo_max: 500",
+    "bounds that K971 checks": "lower_angle: 2.0\nupper_angle: -2.0",
     "parameter in the code": "left: {charge: 1}\nright: {charge: 1}\nrear: {chagre: 1}",
 }
 

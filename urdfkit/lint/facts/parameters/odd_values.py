@@ -52,9 +52,13 @@ _FRAMES = ("map", "odom", "base_link", "base_footprint", "world")
 
 def odd_values(source: Source, model: Model) -> Defects:
     """Yield the values and names of a YAML file that no node accepts or that stand alone, with a message."""
+    from urdfkit.lint.facts.control.controller_joints import controllers
+    from urdfkit.lint.facts.navigation.tables import ORDERED
+
+    checked = () if controllers(source) else ORDERED  # by K971
     for node in nodes(source):
         yield from _negative(node)
-        yield from _reversed(node)
+        yield from _reversed(node, checked)
         yield from _misspelt_joints(node, model)
         yield from _misspelt_frames(node, model)
         yield from _misspelt_parameters(node)
@@ -73,14 +77,16 @@ def _negative(node: Node) -> Defects:
             yield value, f"`{key.text}` is {value.text}; it must not be negative"
 
 
-def _reversed(node: Node) -> Defects:
-    """Yield the lower bounds above their upper bounds."""
+def _reversed(node: Node, checked: tuple[tuple[str, str], ...]) -> Defects:
+    """Yield the lower bounds above their upper bounds, without the pairs that another rule checks."""
     for key, value in node.entries:
         if re.search(rf"(?:^|_)(?:{_ORDERED})(?:_|$)", key.text) is None:
             continue
         low = number_of(value) if value.kind == "text" else None
         for word, other in _BOUNDS if low is not None else ():
             name = re.sub(word, other, key.text, count=1)
+            if (key.text, name) in checked:
+                continue
             above = node.find(name) if name != key.text else None
             high = number_of(above)
             if low is not None and above is not None and high is not None and low > high:
