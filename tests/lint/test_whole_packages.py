@@ -277,3 +277,10 @@ def test_wheels_of_a_controller_that_do_not_match_are_found(old: str, new: str, 
     found = findings(tmp_path, {**FILES_OF_ROS1, "urdf/cart.urdf": DRIVEN.replace(old, new, 1)})
     assert [each[0] for each in found] == ["S907"]
     assert message in found[0][3]
+
+
+def test_wheels_of_a_controller_that_all_roll_backwards_are_found(tmp_path: Path) -> None:
+    robot = DRIVEN.replace('<axis xyz="0 1 0"', '<axis xyz="0 -1 0"')
+    found = findings(tmp_path, {**FILES_OF_ROS1, "urdf/cart.urdf": robot})
+    assert [each[0] for each in found] == ["S903"]
+    assert "point right, so they roll backwards" in found[0][3]

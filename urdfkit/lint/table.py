@@ -181,6 +181,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.topic_with_blank", "TopicWithBlank"),
     ("plugin sensor", "gazebo.plugin_or_sensor_unnamed", "PluginOrSensorUnnamed"),
     ("plugin", "gazebo.odometry_published_twice", "OdometryPublishedTwice"),
+    ("sensor", "gazebo.contact_collision_undefined", "ContactCollisionUndefined"),
     ("sensor", "gazebo.sensor_type_deprecated", "SensorTypeDeprecated"),
     ("gazebo_ros plugin", "gazebo.plugin_in_wrong_sensor", "PluginInWrongSensor"),
     ("sensor", "gazebo.sensor_type_unknown", "SensorTypeUnknown"),

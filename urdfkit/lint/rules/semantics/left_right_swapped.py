@@ -1,7 +1,9 @@
 """S903 left-right-swapped."""
 
-from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
-from urdfkit.lint.finding import Edit, Fix
+from collections.abc import Sequence
+
+from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, Wheel, drives
+from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -11,7 +13,8 @@ class LeftRightSwapped(RobotRule):
 
     ## What it does
     Checks the positions of the joints that a drive names as left and right: x points forward and y left (REP 103). Also
-    checks for wheels whose axes point right, so that they roll backwards.
+    checks for wheels whose axes point right, so that they roll backwards, including those of a
+    ``diff_drive_controller`` that a Gazebo plugin of the robot runs.
 
     ## Why is this bad?
     The robot turns in the wrong direction. The drive plugin of Gazebo Classic up to ROS Indigo swaps the sides itself,
@@ -74,13 +77,34 @@ class LeftRightSwapped(RobotRule):
                     else ""
                 )
                 yield self.at(model, element, message, joint=left.joint.name, help=help, fix=_swap_sides(model, drive))
-            wheels = (*drive.left, *drive.right)
-            if all(wheel.axis[1] < -0.7 for wheel in wheels) and all(
-                wheel.joint.type == "continuous" for wheel in wheels
-            ):
-                message = f"the axes of wheels `{left.joint.name}` and `{right.joint.name}` point right, "
-                message += "so they roll backwards"
-                yield self.at(model, element, message, joint=left.joint.name, help="reverse the axes: y points left")
+            if _roll_backwards(drive.left, drive.right):
+                yield self._backwards(model, left, right)
+        yield from self._of_controllers(model)
+
+    def _of_controllers(self, model: Model) -> Findings:
+        """Yield a finding for each simulated diff_drive_controller whose wheels, on the right sides, roll backwards."""
+        from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels, wheels_of
+        from urdfkit.lint.facts.gazebo.plugins import runs_controllers
+
+        if not runs_controllers(model.robot):
+            return
+        for _, controller in diff_drives(model):
+            left, right = ([wheel for _, wheel in wheels_of(controller, model, side)] for side in ("left", "right"))
+            is_on_side = bool(left and right) and left[0].place[1] > right[0].place[1]
+            if is_on_side and _roll_backwards(left, right) and not has_other_wheels(model):
+                yield self._backwards(model, left[0], right[0])
+
+    def _backwards(self, model: Model, left: Wheel, right: Wheel) -> Finding:
+        is_turned = min(left.joint.axis) >= 0.0
+        place = left.joint.element.find("origin" if is_turned else "axis") or left.joint.element
+        message = f"the axes of wheels `{left.joint.name}` and `{right.joint.name}` point right, so they roll backwards"
+        attribute, names = "rpy" if is_turned else "xyz", (left.joint.name, right.joint.name)
+        help = "reverse the axes: y points left"
+        return self.at(model, place, message, attribute=attribute, joint=left.joint.name, help=help, names=names)
+
+
+def _roll_backwards(left: Sequence[Wheel], right: Sequence[Wheel]) -> bool:
+    return all(wheel.axis[1] < -0.7 and wheel.joint.type == "continuous" for wheel in (*left, *right))
 
 
 def _swap_sides(model: Model, drive: TwoSided) -> Fix | None:
