@@ -167,7 +167,7 @@ def test_mistakes_in_an_srdf(changes: dict[str, str], expected: list[str], tmp_p
 def test_the_only_missing_pair_of_adjacent_links_is_reported(pairs: str, expected: list[str], tmp_path: Path) -> None:
     links = "".join(f'<link name="{name}">{SHAPE}</link>' for name in "abcde")
     joints = "".join(
-        f'<joint name="{a}_{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
+        f'<joint name="{a}_{b}" type="fixed"><parent link="{a}"/><child link="{b}"/><origin xyz="0.2 0 0"/></joint>'
         for a, b in ("ab", "bc", "cd", "de")
     )
     (tmp_path / "limb.urdf").write_text(LIMB.format(links=links, joints=joints))
@@ -176,6 +176,56 @@ def test_the_only_missing_pair_of_adjacent_links_is_reported(pairs: str, expecte
     (tmp_path / "limb.srdf").write_text(f'<robot name="limb">{group}{disabled}</robot>')
     found = [f"{one.code} {one.message}" for one in lint(tmp_path / "limb.urdf") if one.code.startswith("M")]
     assert found == expected
+
+
+@pytest.mark.parametrize(
+    ("left_out", "expected"),
+    [
+        ("", []),
+        ("outer inner", ["M110 links `outer` and `inner` overlap with every joint at zero, but "]),
+        ("left_arm left_tip", ["M110 links `left_arm` and `left_tip` are the counterparts of a pair that the SRDF "]),
+    ],
+)
+def test_pairs_of_links_that_are_not_adjacent_are_compared(left_out: str, expected: list[str], tmp_path: Path) -> None:
+    limbs = [(side, sign) for side, sign in (("left", 1), ("right", -1))]
+    sizes = {"outer": 0.2, "middle": 0.16, "inner": 0.12}
+    sizes |= {f"{side}_{part}": 0.02 for side, _ in limbs for part in ("arm", "hand", "tip")}
+    links = "".join(
+        f'<link name="{name}"><collision><geometry><box size="{size} {size} 0.6"/></geometry></collision></link>'
+        for name, size in sizes.items()
+    )
+    joints = [("outer", "middle", "prismatic", "0 0 0"), ("middle", "inner", "prismatic", "0 0 0")]
+    for side, sign in limbs:
+        joints.append(("inner", f"{side}_arm", "revolute", f"0 {sign * 0.2} 0"))
+        joints.append((f"{side}_arm", f"{side}_hand", "revolute", f"0 {sign * 0.1} 0"))
+        joints.append((f"{side}_hand", f"{side}_tip", "revolute", f"0 {sign * 0.1} 0"))
+    written = "".join(
+        f'<joint name="{child}_joint" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{xyz}"/><axis xyz="0 0 1"/><limit lower="0" upper="0.3" effort="9" velocity="1"/></joint>'
+        for parent, child, kind, xyz in joints
+    )
+    (tmp_path / "limb.urdf").write_text(LIMB.format(links=links, joints=written))
+    pairs = [f"{parent} {child}" for parent, child, _, _ in joints] + ["outer inner"]
+    pairs += [f"{side}_arm {side}_tip" for side, _ in limbs]
+    names = [pair.split() for pair in pairs if pair != left_out]
+    disabled = "".join(f'<disable_collisions link1="{a}" link2="{b}" reason="Default"/>' for a, b in names)
+    group = '<group name="limb"><chain base_link="outer" tip_link="inner"/></group>'
+    (tmp_path / "limb.srdf").write_text(f'<robot name="limb">{group}{disabled}</robot>')
+    found = [f"{one.code} {one.message}" for one in lint(tmp_path / "limb.urdf") if one.code == "M110"]
+    assert len(found) == len(expected)
+    assert all(one.startswith(start) for one, start in zip(found, expected, strict=True))
+
+
+def test_the_missing_pair_is_written_in_the_help(tmp_path: Path) -> None:
+    boxes = '<link name="{0}"><collision><geometry><box size="{1} {1} 0.5"/></geometry></collision></link>'
+    links = "".join(boxes.format(name, size) for name, size in (("a", 0.3), ("b", 0.2), ("c", 0.1)))
+    joint = '<joint name="{0}_{1}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'
+    (tmp_path / "limb.urdf").write_text(LIMB.format(links=links, joints=joint.format(*"ab") + joint.format(*"bc")))
+    disabled = "".join(f'<disable_collisions link1="{a}" link2="{b}" reason="Adjacent"/>' for a, b in ("ab", "bc"))
+    group = '<group name="limb"><chain base_link="a" tip_link="c"/></group>'
+    (tmp_path / "limb.srdf").write_text(f'<robot name="limb">{group}{disabled}</robot>')
+    [found] = lint(tmp_path / "limb.urdf", select=["M110"])
+    assert found.help == 'add <disable_collisions link1="a" link2="c" reason="Default"/>'
 
 
 TWO = ROBOT.replace(

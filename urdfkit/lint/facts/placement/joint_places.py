@@ -1,5 +1,6 @@
 """Where the frames of joints lie in the shapes of their parent links: on the surface, outside or inside."""
 
+from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import box_around, rpy_of
@@ -20,6 +21,12 @@ _PART = 0.02
 
 _OVERLAP = 0.3
 """Smallest part of the child link that is inside of the shape of the parent link of a joint that is too deep."""
+
+_SLENDER = 2.5
+"""Smallest ratio of the length of a tube to its other sizes."""
+
+_ENDS = 2
+"""Smallest number of joints at the ends of their tubes of which one stands out."""
 
 _FEWEST = 4
 """Smallest number of joints on the surfaces of their parent links of which one stands out."""
@@ -71,6 +78,51 @@ def misplaced(model: Model) -> Iterator[Place]:
         is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None and not is_in_tube
         if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
+
+
+def along_tubes(model: Model) -> Iterator[tuple[Joint, Element, float, float]]:
+    """Yield the joint that is not at the end of the tube that carries it: joint, ``<origin>``, its place, the length.
+
+    A tube is a slender link that starts at its own frame and carries one moving link. Yields the only such joint, if
+    several others are at the ends of their tubes, or if it is as far along its tube as the next tube is long.
+    """
+    tubes = {link: tube for link, extent in model.extents.items() if (tube := _tube(extent)) is not None}
+    carried = Counter(joint.parent for joint in model.robot.joints if joint.is_movable)
+    meshed = {link.name for _, _, link in model.meshes}
+    ends: set[object] = set()
+    off: dict[object, tuple[Joint, Element, float, float]] = {}
+    for joint in model.robot.joints:
+        tube = tubes.get(joint.parent or "")
+        is_turning = joint.type in ("revolute", "continuous")
+        if tube is None or not is_turning or carried[joint.parent] != 1 or joint.parent in meshed:
+            continue
+        axis, end = tube
+        if any(abs(part) > _EXACT for k, part in enumerate(joint.origin.xyz) if k != axis):
+            continue
+        element, place = _origin(joint), joint.origin.xyz[axis]
+        if abs(place - end) <= _EXACT:
+            ends.add(element.origin.position)
+        elif abs(place - end) > _PART * abs(end) and not model.is_unresolved(element, "xyz"):
+            off.setdefault(element.origin.position, (joint, element, abs(place), abs(end)))
+    if len(off) != 1:
+        return
+    [(joint, element, place, length)] = off.values()
+    own = tubes.get(joint.child or "")
+    is_length_of_next = own is not None and abs(abs(own[1]) - place) <= _EXACT
+    if place > 0.0 and (is_length_of_next or len(ends) >= _ENDS):
+        yield joint, element, place, length
+
+
+def _tube(extent: Extent) -> tuple[int, float] | None:
+    """Return the axis and the end of a slender link that starts at its own frame; None for other links."""
+    sizes = [high - low for low, high in zip(extent.low, extent.high, strict=True)]
+    axis = max(range(3), key=sizes.__getitem__)
+    low, high = extent.low[axis], extent.high[axis]
+    others = [k for k in range(3) if k != axis]
+    is_centred = all(abs(extent.low[k] + extent.high[k]) <= _PART * sizes[axis] for k in others)
+    if not is_centred or sizes[axis] < _SLENDER * max(sizes[k] for k in others) or min(abs(low), abs(high)) > _EXACT:
+        return None
+    return axis, high if abs(high) > abs(low) else low
 
 
 def _compared(model: Model) -> list[tuple[Joint, Extent]]:

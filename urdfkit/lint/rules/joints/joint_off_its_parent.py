@@ -13,6 +13,9 @@ class JointOffItsParent(RobotRule):
     the parent link, while at least four other joints are exactly on the surface. A telescope stage on a prismatic joint
     may be inside.
 
+    Also reports the only joint that is on the axis of a slender link, but not at its end: if two other joints are at
+    the ends of such links, or if it is as far along the link as its child link is long.
+
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually
     the offset was computed with the length of another link, or the joint has the wrong parent link.
@@ -71,10 +74,11 @@ class JointOffItsParent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the only joint that is not at the surface of its parent link."""
-        from urdfkit.lint.facts.placement.joint_places import misplaced
+        from urdfkit.lint.facts.placement.joint_places import along_tubes, misplaced
 
         if model.is_incomplete:
             return
+        found: set[str] = set()
         for place in misplaced(model):
             joint = place.joint
             where = f"{-place.depth:.3g} m outside of" if place.depth < 0.0 else f"{place.depth:.3g} m inside of"
@@ -82,4 +86,12 @@ class JointOffItsParent(RobotRule):
             message += "all other joints are on the surface of their parent links"
             help = "check the parent link and the origin"
             names = tuple(name for name in (joint.child, joint.parent) if name)
+            found.add(joint.name)
             yield self.at(model, place.element, message, attribute="xyz", joint=joint.name, help=help, names=names)
+        for joint, element, distance, length in along_tubes(model):
+            if joint.name not in found:
+                message = f"joint `{joint.name}` is {distance:.3g} m along `{joint.parent}`, "
+                message += f"not at its end, at {length:.3g} m"
+                help = "check which length the origin is computed with"
+                names = tuple(name for name in (joint.child, joint.parent) if name)
+                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)

@@ -24,6 +24,9 @@ class SrdfAdjacentPairMissing(RobotRule):
     ## What it does
     Checks pairs of links that have collision geometry and are connected by a joint, if the SRDF disables most of these
     pairs. A pair is reported if both links occur in other disabled pairs, or if all other adjacent pairs are disabled.
+    Two more pairs are reported: links that overlap with every joint at zero, and that only fixed or prismatic joints
+    separate, such as the first and the last stage of a telescope, and the only pair that is not disabled although its
+    counterpart on the other side of the robot is. Both links must occur in disabled pairs.
     SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are not checked.
 
     ## Why is this bad?
@@ -50,6 +53,7 @@ class SrdfAdjacentPairMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each pair of adjacent links that is missing."""
+        from urdfkit.lint.facts.moveit.missing_pairs import overlapping, unlike_other_side
         from urdfkit.lint.facts.moveit.srdf import near_links, semantics_of, severity_for
         from urdfkit.lint.facts.root_cause import parent_at
 
@@ -58,15 +62,21 @@ class SrdfAdjacentPairMissing(RobotRule):
         for root in semantics_of(model):
             if root.find_all("enable_collisions") or root.find_all("disable_default_collisions"):
                 continue
+            links = set(model.robot.link_by_name)
             disabled = {frozenset(_links(pair)): pair for pair in root.find_all("disable_collisions")}
             mentioned = {link for pair in disabled for link in pair}
             every = {link.name for link in model.robot.links if link.collisions}
+            for pair, near, reason in (*overlapping(model, disabled), *unlike_other_side(model, disabled)):
+                if any(len(each) < 2 or not each <= links for each in disabled):
+                    break  # Other rules report a pair that names one link twice, or a link that does not exist.
+                message = f"links `{pair[0]}` and `{pair[1]}` {reason}, but their collisions are not disabled"
+                help = f'add <disable_collisions link1="{pair[0]}" link2="{pair[1]}" reason="Default"/>'
+                yield self.at(model, near, message, help=help, severity=severity_for(root, model), names=pair)
             adjacent, missing = _adjacent(model, every, disabled)
             if len(missing) != 1 or len(adjacent) < _MIN_PAIRS:
                 adjacent, missing = _adjacent(model, every & mentioned, disabled)
             if len(adjacent) < (1 + _MIN_SHARE) * len(missing):
                 continue
-            links = set(model.robot.link_by_name)
             # Other rules report a pair that names one link twice, or a link that does not exist.
             wrong = [each for each in disabled if len(each) < 2 or not each <= links]
             missing = [(joint, pair) for joint, pair in missing if not any(pair & each for each in wrong)]
