@@ -284,3 +284,24 @@ def test_wheels_of_a_controller_that_all_roll_backwards_are_found(tmp_path: Path
     found = findings(tmp_path, {**FILES_OF_ROS1, "urdf/cart.urdf": robot})
     assert [each[0] for each in found] == ["S903"]
     assert "point right, so they roll backwards" in found[0][3]
+
+
+CONTROLLED = """<robot name="cart">
+  <link name="base"/><link name="wheel"/>
+  <joint name="wheel_joint" type="continuous"><parent link="base"/><child link="wheel"/><axis xyz="0 1 0"/></joint>
+  <ros2_control name="cart" type="system">
+    <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+    <joint name="wheel_joint"><command_interface name="velocity"/></joint>
+  </ros2_control>
+  <gazebo><plugin filename="libgazebo_ros2_control.so" name="gazebo_ros2_control"/></gazebo>
+</robot>
+"""
+
+
+def test_a_plugin_of_another_gazebo_than_the_hardware_and_the_packages_is_one_finding(tmp_path: Path) -> None:
+    manifest = "<package format='3'><name>cart</name><version>1.0.0</version><depend>gz_ros2_control</depend></package>"
+    (tmp_path / "package.xml").write_text(manifest)
+    (tmp_path / "cart.urdf").write_text(CONTROLLED)
+    [found] = lint(tmp_path, select=("K956", "C709"))
+    assert (found.code, found.line) == ("K956", 8)
+    assert found.help == "load the plugin of `gz_ros2_control`, like the hardware of the robot"

@@ -51,7 +51,7 @@ def test_numbers(inside: str, expected: list[str]) -> None:
         (scan(bounds="<min>5</min><max>5</max>"), [("min", "the range of the lidar, 5 m to 5 m, is empty")]),
         (scan(bounds="<min>5</min><max>far</max>"), []),
         (scan("<samples>1</samples>"), []),
-        (scan("<samples>0.5</samples>"), [("horizontal", "<horizontal> has 0.5 samples; it must be one or more")]),
+        (scan("<samples>0.5</samples>"), [("samples", "<horizontal> has 0.5 samples; it must be one or more")]),
         (scan("<samples>1.5</samples>"), [("samples", "<samples> is 1.5; it must be a whole number")]),
         (scan("<resolution>0.001</resolution>"), []),
         (

@@ -104,7 +104,7 @@ def senseless_scan(lidar: Element) -> Senseless:
 def _senseless_fan(fan: Element) -> Senseless:
     samples, resolution = _number(fan, "samples", 640.0), _number(fan, "resolution", 1.0)
     if samples < 1:
-        yield fan, f"<{fan.tag}> has {samples:g} samples; it must be one or more"
+        yield fan.find("samples") or fan, f"<{fan.tag}> has {samples:g} samples; it must be one or more"
     elif isfinite(samples) and samples != int(samples):
         yield fan.find("samples") or fan, f"<samples> is {samples:g}; it must be a whole number"
     elif resolution <= 0:

@@ -138,7 +138,7 @@ def _cause(found: set[ValueSource], text: str, finding: Finding) -> ValueSource 
     if len(named) == 1:
         return named[0]
     sizes = sorted((abs(size), each) for each in values if (size := number(each.text)) is not None)
-    if len(sizes) == len(values) > 0:
+    if len(sizes) == len(values) > 0 and values[0].text not in signs:
         others = max([*(size for size, _ in sizes[:-1]), *map(abs, outside)], default=0.0)
         return sizes[-1][1] if sizes[-1][0] > _FACTOR * others else None
     return None
@@ -206,7 +206,7 @@ def _only_call(finding: Finding, calls: set[Expansion], model: Model) -> Span | 
         return None
     call = model.tag(next(iter(calls)).position)
     origin = next((each for each in call.children if each.name == "origin"), None) if call is not None else None
-    if origin is not None and finding.code == "I519":  # the block that turns the moments
+    if origin is not None and finding.code == "I519" and finding.kind == "turned":  # the block that turns the moments
         return model.document(next(iter(calls)).position.file).source.span(origin.start, origin.end)
     return model.span(next(iter(calls)).position)
 

@@ -37,8 +37,11 @@ def overlapping_twins(model: Model) -> Iterator[tuple[Link, Element, str]]:
             # Links at exactly one place are not placed yet, or reported by the origins of their joints.
             width = min(high[1] - low[1], high2[1] - low2[1])
             if min(depths) > 0.0 and depths[1] > _OVERLAP * width and low[1] + high[1] != low2[1] + high2[1]:
-                shape = next((each.element.find("geometry") for each in shapes_of(other)), None)
-                shape = next(iter(shape.children), None) if shape is not None else None
+                first = shapes_of(other)[0]
+                offset, geometry = first.element.find("origin"), first.element.find("geometry")
+                shape = next(iter(geometry.children), None) if geometry is not None else None
+                if offset is not None and first.origin.xyz[1] != 0.0:
+                    shape = offset
                 message = f"links `{link.name}` and `{name}` overlap by {depths[1]:.3g} m"
                 yield other, shape or other.element, message
 

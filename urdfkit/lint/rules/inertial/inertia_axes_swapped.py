@@ -89,12 +89,13 @@ class InertiaAxesSwapped(RobotRule):
             help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
             fix, origin = computed(model, link, element), inertial.element.find("origin")
             axes = _swapped(model, element, actual, expected) if fix is None else None
+            kind = "swapped" if message.endswith("swapped") else "turned" if _is_turned(link) else ""
             if axes is not None:
-                yield self.at(model, element, message, attribute=axes, link=link.name, help=help)
+                yield self.at(model, element, message, attribute=axes, link=link.name, help=help, kind=kind)
             elif fix is None and origin is not None and _lacks_rotation(link):
                 yield self.at(model, origin, message, attribute="rpy", link=link.name, help=help)
             else:
-                yield self.at(model, element, message, link=link.name, help=help, fix=fix)
+                yield self.at(model, element, message, link=link.name, help=help, fix=fix, kind=kind)
 
 
 def _swapped(model: Model, element: Element, actual: Sequence[float], expected: Sequence[float]) -> str | None:
@@ -114,6 +115,12 @@ def _swapped(model: Model, element: Element, actual: Sequence[float], expected: 
         return None
     names = zip(("ixx", "iyy", "izz"), actual, expected, strict=True)
     return next((name for name, a, b in names if abs(a - b) > _ALIKE * max(a, b)), None)
+
+
+def _is_turned(link: Link) -> bool:
+    """Return whether a shape of a link or its inertial has a rotation, which may be the wrong one."""
+    parts = (*link.visuals, *link.collisions, *([link.inertial] if link.inertial is not None else ()))
+    return any(any(part.origin.rpy) for part in parts)
 
 
 def _lacks_rotation(link: Link) -> bool:

@@ -203,7 +203,16 @@ class SrdfGroupInconsistent(RobotRule):
                 if is_free and other not in passive and other not in within:
                     message = f"joint `{name}` is passive, but joint `{other}`, which is in no group, is not"
                     help = f'add <passive_joint name="{other}"/>'
-                    yield self.at(model, element, message, attribute="name", joint=other, help=help, severity=severity)
+                    yield self.at(
+                        model,
+                        element,
+                        message,
+                        attribute="name",
+                        joint=other,
+                        help=help,
+                        severity=severity,
+                        kind="passive",
+                    )
 
     def _chain(self, chain: Element, model: Model, severity: Severity | None) -> Findings:
         robot = model.robot

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Span
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -14,6 +15,9 @@ _TOLERANCE = 0.005
 
 _MAX_FOREIGN = 1
 """Number of joints of other groups in a state above which they have one finding."""
+
+_SEVERAL = 2
+"""Number of states that agree, from which on their group is wrong."""
 
 _COUNT = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 7}
 """Joint type → number of values in a state (moveit_core, JointModel::getVariableCount)."""
@@ -24,7 +28,8 @@ class SrdfStateInvalid(RobotRule):
 
     ## What it does
     Compares the values of each ``<group_state>`` with the limits and types of the joints, and its joints with the
-    active joints of its group. A value that MoveIt cannot use is reported as an error.
+    active joints of its group. If all of several states set a joint that their group lacks, or lack a joint of the
+    group, the group is reported. A value that MoveIt cannot use is reported as an error.
 
     ## Why is this bad?
     MoveIt rejects a goal beyond the limits, and ignores values for joints of other groups.
@@ -51,7 +56,6 @@ class SrdfStateInvalid(RobotRule):
         """Yield a finding for each invalid value, and for joints that are missing in a state or in its group."""
         from urdfkit.lint.facts.moveit.reversed_limits import reversed_limits
         from urdfkit.lint.facts.moveit.srdf import fits, joints_of, semantics_of, severity_for
-        from urdfkit.lint.facts.root_cause import parent_at
         from urdfkit.lint.fix_builders import nearest
 
         robot = model.robot
@@ -82,15 +86,28 @@ class SrdfStateInvalid(RobotRule):
                 if limit is not None:
                     help = "check the signs of the limits"
                     yield self.at(model, limit.element, message, joint=joints[0].name, severity=severity, help=help)
+            common = _in_all_states(root, model) if fits(root, robot) else {}
+            for group, (element, names, is_foreign) in common.items():
+                if group in wrong:
+                    continue
+                listed = ", ".join(f"`{name}`" for name in names)
+                message = f"all states of group `{group}` set {listed}, which the group does not contain"
+                if not is_foreign:
+                    message = f"no state of group `{group}` has a value for {listed}, which the group contains"
+                other = _parent_of_branch(names[0], joints_of(group, root, robot) or set(), model)
+                details = {"kind": "foreign" if is_foreign else "", "names": (group, *names), "other": other}
+                yield self.at(model, element, message, joint=names[0], severity=severity, **details)
             for state in root.find_all("group_state"):
                 group, values = state.get("group") or "", state.find_all("joint")
                 is_compared = group not in wrong and fits(root, robot)
                 members = (joints_of(group, root, robot) if is_compared else None) or set()
                 for value in (value for value in values if value.get("name") not in excluded):
                     yield from self._value(value, model, severity_for(root, model, "error"))
+                shared = common[group][1] if group in common else ()
                 foreign = [
                     value for value in values if members and value.get("name") in robot.joint_by_name.keys() - members
                 ]
+                foreign = [value for value in foreign if value.get("name") not in shared]
                 if len(foreign) > _MAX_FOREIGN:
                     listed = [f"`{value.get('name')}`" for value in foreign[:3]] + ["…"] * (len(foreign) > 3)
                     message = f"joints {', '.join(listed)} of state `{state.get('name')}` are not in group `{group}`"
@@ -98,11 +115,7 @@ class SrdfStateInvalid(RobotRule):
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
                     message = cause = f"joint `{value.get('name')}` is not in group `{group}`"
                     name = value.get("name") or ""
-                    branch = [each for each in members if name in robot.joint_by_name and each in robot.joint_by_name]
-                    branch = [
-                        each for each in branch if robot.joint_by_name[each].parent == robot.joint_by_name[name].parent
-                    ]
-                    other = parent_at(model, robot.joint_by_name[branch[0]]) if len(branch) == 1 else None
+                    other = _parent_of_branch(name, members, model)
                     yield self.at(
                         model,
                         value,
@@ -124,8 +137,9 @@ class SrdfStateInvalid(RobotRule):
                     if joint.name not in valued and joint.name not in passive
                 ]
                 unknown = [name for name in valued if name and name not in robot.joint_by_name]
+                missing = [name for name in missing if name not in shared]
                 missing = [name for name in missing if nearest(name, unknown, cutoff=0.7) is None]  # it is misspelt
-                if foreign and len(foreign) == len(values):
+                if foreign and len(foreign) == len(values) and not shared:
                     continue  # The state is for another group.
                 if len(missing) > len(foreign):  # otherwise the foreign joints stand for the missing ones
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
@@ -152,10 +166,14 @@ class SrdfStateInvalid(RobotRule):
 
     def _exchanged(self, root: Element, model: Model) -> Iterator[tuple[str, tuple[Element, str]]]:
         """Yield each group with a joint whose mirrored joint has a value in all states of the group instead."""
+        from urdfkit.lint.facts.moveit.srdf import groups, joints_of
         from urdfkit.lint.facts.twins import mirrored
 
         for group in root.find_all("group"):
             name = group.get("name") or ""
+            elsewhere = {
+                joint for each in groups(root) if each != name for joint in joints_of(each, root, model.robot) or ()
+            }
             states = [state for state in root.find_all("group_state") if state.get("group") == name]
             valued = [{value.get("name") for value in state.find_all("joint")} for state in states]
             listed = {each.get("name") for each in group.find_all("joint")}
@@ -164,6 +182,8 @@ class SrdfStateInvalid(RobotRule):
                 joint = element.get("name") or ""
                 for other in mirrored(joint):
                     is_other = other in model.robot.joint_by_name and other not in listed
+                    if len(valued) == 1 and other in elsewhere and joint not in elsewhere:
+                        continue  # The state is for the other group.
                     if is_other and valued and all(joint not in each and other in each for each in valued):
                         yield name, (element, other)
 
@@ -210,3 +230,41 @@ class SrdfStateInvalid(RobotRule):
                 message = f"value {numbers[0]:g} {unit} of joint `{name}` is beyond its limits {limits}"
                 help = f"write {radians:.5g} if the value is in degrees" if in_degrees else None
                 yield from found(unit, message, help)
+
+
+def _in_all_states(root: Element, model: Model) -> dict[str, tuple[Element, tuple[str, ...], bool]]:
+    """Return the groups of which several states all set joints that it lacks, or all lack joints that it contains.
+
+    The values are the element to edit, the joints, and whether the group lacks them.
+    """
+    from urdfkit.lint.facts.moveit.srdf import joints_of
+
+    joints, found = model.robot.joint_by_name, {}
+    passive = {element.get("name") for element in root.find_all("passive_joint")}
+    for group in root.find_all("group"):
+        name = group.get("name") or ""
+        states = [state for state in root.find_all("group_state") if state.get("group") == name]
+        members = joints_of(name, root, model.robot) or set()
+        if len(states) < _SEVERAL or not members:
+            continue
+        valued = [{value.get("name") or "" for value in state.find_all("joint")} for state in states]
+        lacking = sorted(set.intersection(*(each & (joints.keys() - members) for each in valued)))
+        needed = {each for each in members & joints.keys() if joints[each].type in _COUNT}
+        needed = {each for each in needed if joints[each].mimic is None} - passive
+        unset = sorted(set.intersection(*(needed - each for each in valued)))
+        if not all(each & members and each <= joints.keys() for each in valued) or (lacking and unset):
+            continue  # states of another group, or misspelt names
+        place = next((each for each in group.children if each.tag == "chain"), group)
+        if lacking or unset:
+            found[name] = (place, tuple(lacking or unset), bool(lacking))
+    return found
+
+
+def _parent_of_branch(name: str, members: set[str], model: Model) -> Span | None:
+    """Return the parent of the only joint of a group that is a branch next to a joint outside of the group."""
+    from urdfkit.lint.facts.root_cause import parent_at
+
+    joints = model.robot.joint_by_name
+    branch = [each for each in members if name in joints and each in joints]
+    branch = [each for each in branch if joints[each].parent == joints[name].parent]
+    return parent_at(model, joints[branch[0]]) if len(branch) == 1 else None

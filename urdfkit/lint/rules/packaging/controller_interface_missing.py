@@ -88,7 +88,7 @@ class ControllerInterfaceMissing(RobotRule):
                     # Another file may contain the transmissions if the controller has none.
                     has_others = len(unprovided) < len(joints_of(source, controller_type)) or len(provided) > _FEW
                     severity = self.severity if has_others else "note"
-                    found = self.at_span(span, message, severity=severity, joint=unprovided[0])
+                    found = self.at_span(span, message, severity=severity, joint=unprovided[0], kind="none")
                     there = model.span(_place(unprovided[0], joints_of(source, controller_type), model))
                     yield Finding(**{**found.__dict__, "other": there, "is_other_wrong": has_others})
                 if required is None or not missing or any("$" in name for name in provided[missing[0]]):

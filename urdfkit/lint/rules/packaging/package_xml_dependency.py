@@ -262,7 +262,11 @@ class PackageXmlDependency(RobotRule):
                 message = f"missing dependency on `{used}`, whose plugin the robot loads"
                 message += f"; the packages name `{others[0]}`" if others else ""
                 help = f"add <exec_depend>{used}</exec_depend> to package.xml"
-                yield self.at(model, plugin.element, message, attribute="filename", help=help, names=(used,))
+                hardware = [each.text for block in model.robot.ros2_control for each in block.element.walk()]
+                is_of_other = any(text.startswith(f"{name}/") for name in others[:1] for text in hardware)
+                kind = "foreign" if is_of_other else ""
+                help = f"load the plugin of `{others[0]}`, like the hardware of the robot" if is_of_other else help
+                yield self.at(model, plugin.element, message, attribute="filename", help=help, names=(used,), kind=kind)
                 return
 
     def _check_moveit(self, model: Model, declared: dict[Path, set[str]]) -> Findings:

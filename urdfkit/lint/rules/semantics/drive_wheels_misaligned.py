@@ -5,6 +5,7 @@ from itertools import pairwise
 from math import dist
 
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives
+from urdfkit.lint.facts.twins import side_of
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -87,7 +88,7 @@ class DriveWheelsMisaligned(RobotRule):
                 defect = _defect(left, right)
                 if defect is not None:
                     message, help = defect
-                    yield self._at(model, left, right, message, help)
+                    yield self._at(model, left, right, message, help, (*drive.left, *drive.right))
             for side in (drive.left, drive.right):
                 yield from self._same_place(model, side)
         yield from self._of_controllers(model)
@@ -106,7 +107,7 @@ class DriveWheelsMisaligned(RobotRule):
             for one, other in zip(left, right, strict=True):
                 defect = _defect(one, other) if one.joint is not other.joint else None
                 if defect is not None:
-                    yield self._at(model, one, other, *defect)
+                    yield self._at(model, one, other, *defect, (*left, *right))
             for side in (left, right):
                 yield from self._same_place(model, side)
 
@@ -117,10 +118,14 @@ class DriveWheelsMisaligned(RobotRule):
                 message = f"drive wheels `{first.joint.name}` and `{other.joint.name}` are in the same place"
                 yield self._at(model, first, other, message, "correct the <origin> of one of the joints")
 
-    def _at(self, model: Model, first: Wheel, other: Wheel, message: str, help: str) -> Finding:
+    def _at(
+        self, model: Model, first: Wheel, other: Wheel, message: str, help: str, wheels: Sequence[Wheel] = ()
+    ) -> Finding:
         from urdfkit.lint.facts.macro_calls import equal_call, with_calls_of
-        from urdfkit.lint.facts.root_cause import shared_argument
+        from urdfkit.lint.facts.root_cause import argument_of_coordinate, shared_argument
 
+        if (_is_on_wrong_side(first) and not _is_on_wrong_side(other)) or _stands_out(first, other, wheels):
+            first, other = other, first
         joint, names = other.joint, (first.joint.name,)
         is_misaligned = max(_distances(first, other)) >= _MIN_DISTANCE
         call = None if is_misaligned else equal_call(model, first.joint.element, joint.element)
@@ -131,9 +136,25 @@ class DriveWheelsMisaligned(RobotRule):
         wrong = joint.element.find("axis" if _are_opposite(first, other) else "origin") if is_misaligned else None
         if wrong is not None:
             place, attribute = wrong, "xyz"
+            is_low = wrong.tag == "origin" and origins[1] is not None
+            height = argument_of_coordinate(model, wrong, origins[1] or wrong, 2) if is_low else None
+            place, attribute = height or (place, attribute)
         found = self.at(model, place, message, attribute=attribute, joint=joint.name, help=help, names=names)
         own, twin = joint.element.origin, first.joint.element.origin
         return with_calls_of(found, first.joint.element) if own.position == twin.position else found
+
+
+def _is_on_wrong_side(wheel: Wheel) -> bool:
+    """Return whether the name of a wheel states the other side of the robot."""
+    side = side_of(wheel.joint.name)
+    return wheel.place[1] < 0.0 if side == "left" else wheel.place[1] > 0.0 if side == "right" else False
+
+
+def _stands_out(first: Wheel, other: Wheel, wheels: Sequence[Wheel]) -> bool:
+    """Return whether the height of the first wheel differs from that of the other one and of all further wheels."""
+    heights = [wheel.place[2] for wheel in wheels if wheel.joint not in (first.joint, other.joint)]
+    near, far = (all(abs(each - one.place[2]) < _MIN_DISTANCE for each in heights) for one in (other, first))
+    return bool(heights) and near and not far
 
 
 def _are_opposite(one: Wheel, other: Wheel) -> bool:

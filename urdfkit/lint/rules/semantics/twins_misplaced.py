@@ -10,7 +10,7 @@ from urdfkit.lint.facts.placement.directions import Directions
 from urdfkit.lint.facts.placement.mirrored_chains import asymmetric_offset
 from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
 from urdfkit.lint.facts.placement.twin_overlaps import overlapping_twins
-from urdfkit.lint.facts.root_cause import Place, argument_of_coordinate, call_of, shared_argument
+from urdfkit.lint.facts.root_cause import Place, argument_of_coordinate, call_of, shared_argument, written_at
 from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, side_of, twins
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -137,7 +137,15 @@ class TwinsMisplaced(RobotRule):
             break
         for overlapping, place, message in overlapping_twins(model) if not found else ():
             help = "check their sizes, and the distance between the two sides"
-            yield self.at(model, place, message, link=overlapping.name, help=help)
+            joints = model.robot.joints
+            ends = (overlapping.name, *mirrored(overlapping.name))
+            names = tuple(joint.name for joint in joints if joint.child in ends)
+            written = written_at(model, place, "xyz") if place.tag == "origin" else None
+            details = {"link": overlapping.name, "help": help, "names": names}
+            if written is not None:
+                yield self.at_span(written, message, **details)
+            else:
+                yield self.at(model, place, message, attribute="xyz", **details)
             break
 
 
