@@ -201,7 +201,7 @@ def test_a_bridge_of_topics_of_two_sides_is_wrong(tmp_path, ros, gazebo, is_repo
     cart = package(tmp_path / "cart", "ros_gz_bridge")
     write(cart / "urdf/cart.urdf", CAMERA.format(topic="left/eye", imu="right/imu"))
     write(cart / "config/bridge.yaml", bridged(("left/eye", "left/eye"), (ros, gazebo)))
-    message = "the bridge connects `right/eye` with `left/eye` of the other side; did you mean `right/eye`?"
+    message = "the bridge connects `right/eye` with `left/eye` on the other side; did you mean `right/eye`?"
     expected = [("bridge.yaml", 7, message, [])] if is_reported else []
     assert [row for row in rows(cart, "K969") if "other side" in row[2]] == expected
 
@@ -238,10 +238,10 @@ def test_a_joint_of_the_other_side_is_reported_in_the_list_of_its_controller(tmp
     cart = package(tmp_path / "cart", "joint_trajectory_controller")
     write(cart / "urdf/cart.urdf", f'<robot name="cart">\n  <link name="base"/>\n{ARMS}</robot>\n')
     write(cart / "config/arm.yaml", SIDED.replace("NAME", name).replace("JOINT", joint))
-    message = "`joints` of controller `left_arm` has `right_elbow_joint` of the other side"
+    message = "`joints` of controller `left_arm` lists `right_elbow_joint`, which is on the other side"
     message += "; did you mean `left_elbow_joint`?"
     found = rows(cart, "K976")
-    sides = [row for row in found if "of the other side" in row[2]]
+    sides = [row for row in found if "on the other side" in row[2]]
     assert sides == ([("arm.yaml", 7, message, [])] if is_reported else [])
     assert found == sides or name != "left_arm"
 

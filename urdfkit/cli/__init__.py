@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 COMMANDS = {
     "new": "create a robot, world or package; add a sensor, an arm or controllers",
-    "import": "turn a bare URDF, such as a CAD export, into ROS packages",
-    "lint": "find and fix the defects of a URDF or xacro",
+    "import": "turn a single URDF file, such as a CAD export, into ROS packages",
+    "lint": "find and fix defects in URDF and xacro files",
     "format": "format URDF and xacro files: indentation, white space, line breaks",
     "rule": "print the page of a lint rule, or list all rules",
     "lsp": "run the language server: diagnostics, hover, definitions, completion, fixes",
@@ -38,7 +38,7 @@ COMMANDS = {
     "view": "show a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
     "ik": "compute joint positions that place a link at a pose: inverse kinematics",
-    "jacobian": "compute the Jacobian of a link, its singular values and the lost direction",
+    "jacobian": "compute the Jacobian of a link, its singular values and lost directions of motion",
     "reach": "compute a map of the positions and orientations that a link reaches",
     "retime": "compute the fastest motion through waypoints within the limits of the joints",
     "srdf": "write the SRDF for MoveIt: groups and disabled collisions",
@@ -46,8 +46,8 @@ COMMANDS = {
     "topic": "inspect and publish topics of a simulation or live robot: list, info, type, find, echo, hz, bw, pub",
     "service": "list and call services of a simulation or live robot: list, type, call",
     "action": "send goals to actions of a simulation or live robot: list, send",
-    "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
-    "bag": "inspect a recording: info",
+    "replay": "show a ROS 1, ROS 2 or urdfkit recording in the browser",
+    "bag": "print the duration, topics and types of a recording: info",
     "licenses": "print versions and licences of the dependencies, or a software bill of materials",
     "completion": "print the completion script of bash, zsh or fish",
 }
@@ -178,7 +178,7 @@ def parser_of(command: str | None, *, complete: bool = True) -> Parser:
 
     parser = Parser(
         prog="urdfkit",
-        description="From a URDF or xacro to a robot you drive in the browser.",
+        description="Check, view, simulate and create URDF and xacro robots.",
         epilog="examples:\n  urdfkit new robot scout\n  urdfkit sim teleop simpleton",
     )
     parser.add_argument(

@@ -55,9 +55,7 @@ def read_layout(arguments: argparse.Namespace) -> dict[str, Any] | None:
     path = Path(arguments.layout)
     try:
         if path.stat().st_size > LARGEST_LAYOUT:
-            raise UsageError(
-                f"--layout {path}: larger than {LARGEST_LAYOUT // 1000} kB; this is not a layout of urdfkit"
-            )
+            raise UsageError(f"--layout {path}: larger than {LARGEST_LAYOUT // 1000} kB; this is not a urdfkit layout")
         layout = json.loads(path.read_text("utf-8"))
     except FileNotFoundError as error:
         raise UsageError(f"--layout: {missing_path(path)}") from error
@@ -66,7 +64,7 @@ def read_layout(arguments: argparse.Namespace) -> dict[str, Any] | None:
     except (ValueError, RecursionError) as error:
         raise UsageError(f"--layout {path}: not JSON: {error}") from error
     if not isinstance(layout, dict) or layout.get("version") != 1:
-        raise UsageError(f"--layout {path}: not a layout of urdfkit; save one in the panel View of the page")
+        raise UsageError(f"--layout {path}: not a urdfkit layout; save one with Save layout in the View panel")
     return layout
 
 

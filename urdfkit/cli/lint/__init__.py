@@ -1,4 +1,4 @@
-"""``urdfkit lint``: find and fix the defects of a URDF or xacro.
+"""``urdfkit lint``: find and fix defects in URDF and xacro files.
 
 Arguments and settings go in; findings are printed in one of five formats, and fixes are written on request.
 """

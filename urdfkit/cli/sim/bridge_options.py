@@ -42,7 +42,7 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
         type=_origin,
         default=[],
         metavar="ORIGIN",
-        help="accept web pages of this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
+        help="accept web pages from this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
     )
     add_ros(parser)
 

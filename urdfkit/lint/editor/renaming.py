@@ -81,7 +81,7 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str, expand: Expand) -
         return _rename_parameter(models, cursor, parameter, name, expand)
     found = renamable(models[0], cursor)
     if found is None:
-        raise UsageError("nothing to rename here: no symbol, or its name is computed by an expression")
+        raise UsageError("nothing to rename here: this is not a symbol, or an expression computes its name")
     place = literal_at(models[0], cursor.tag, cursor.offset)
     if place is not None and found[0] == cursor.document.source.span(*place):
         _check(name, _EXPANDED_NAME, "link, joint or material")
@@ -91,7 +91,7 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str, expand: Expand) -
     for model in models:
         one = _symbol(model, cursor)
         if one is None:
-            raise UsageError("nothing to rename here: no symbol, or its name is computed by an expression")
+            raise UsageError("nothing to rename here: this is not a symbol, or an expression computes its name")
         _check(name, _EXPANDED_NAME if one.kind in EXPANDED else _NAME, one.kind)
         every = of_model(model)
         if any(other.defines and (other.kind, other.name) == (one.kind, name) for other in every):

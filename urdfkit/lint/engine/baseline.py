@@ -35,7 +35,7 @@ def read(path: Path) -> Counter[Key]:
         if written["baseline"] != _FORMAT:
             raise ResourceError(
                 f"{path} was written by a later version of urdfkit "
-                f"(format {written['baseline']}, supported is {_FORMAT})"
+                f"(format {written['baseline']}, this version supports {_FORMAT})"
             )
         rows = [(str(row["file"]), str(row["code"]), str(row["message"])) for row in written["findings"]]
         counts = [int(row.get("count", 1)) for row in written["findings"]]

@@ -115,7 +115,9 @@ def find(url: str | None = None) -> str:
         if each.origin == place.replace("localhost", "127.0.0.1"):
             return each.url
     near = did_you_mean(place, [each.origin for each in simulations])
-    raise UsageError(f"--url {url}: no simulation of this user runs there; include the token in the address{near}")
+    raise UsageError(
+        f"--url {url}: you have no simulation running at this address; include the token in the address{near}"
+    )
 
 
 def _registered(folder: Path, *, lives: bool) -> Iterator[tuple[Running, Path]]:

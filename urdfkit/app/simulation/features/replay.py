@@ -166,7 +166,7 @@ class Replay(Feature):
         if not self._times:
             raise SimulationError("nothing has been recorded yet")
         if self.simulator.world.revision != self._revision:
-            raise SimulationError("the recording cannot be shown: entities were spawned or removed since")
+            raise SimulationError("the recording cannot be shown: entities were spawned or removed after it was made")
         if not self.playing:
             self._at = self._times[0]
         if self._since is not None:

@@ -14,7 +14,7 @@ class MimicJointUndefined(RobotRule):
     ## What it does
     Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
     contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either. Also
-    reports a joint that mimics a joint of the other side of the robot although its own side has the corresponding
+    reports a joint that mimics a joint on the other side of the robot although its own side has the corresponding
     joint, and mimic plugins of Gazebo Classic that name undefined joints or swap the two joints.
 
     ## Why is this bad?
@@ -61,7 +61,10 @@ class MimicJointUndefined(RobotRule):
             if mimic.joint in others:
                 message, help = _unsuitable(model, joint, mimic.joint), "name a revolute, continuous or prismatic joint"
                 if not message and (own := _on_own_side(joint, mimic.joint, model)):
-                    message, help = f"joint `{joint.name}` mimics `{mimic.joint}` of the other side", f"name `{own}`"
+                    message, help = (
+                        f"joint `{joint.name}` mimics `{mimic.joint}`, which is on the other side",
+                        f"name `{own}`",
+                    )
                 if message:
                     yield self.at(
                         model,

@@ -220,7 +220,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
         sides = side_of(topic), side_of(ros)
         own = [each for each in mirrored(bridge.topic.name) if each.strip("/") in {ros, *robot_topics}]
         if all(sides) and len(set(sides)) > 1 and own:
-            message = f"the bridge connects `{ros}` with `{bridge.topic.name}` of the other side"
+            message = f"the bridge connects `{ros}` with `{bridge.topic.name}` on the other side"
             yield source, bridge.topic, message + Suggestion(own[0], bridge.topic.name)
             continue
         unbridged = [name for name in robot_topics if (source.file, name) not in bridged_topics]

@@ -11,11 +11,11 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ControllerJointForeign(RobotRule):
-    """A controller or a message has a joint of the other side, or values of a joint that it does not control.
+    """A controller lists a joint on the other side of the robot, or sets values for a joint that it does not control.
 
     ## What it does
     Compares the groups in ``constraints`` and ``gains`` of trajectory controllers with their ``joints``. Names that
-    resemble a joint of the controller are reported as misspelt by K962. Also reports a joint of the other side of the
+    resemble a joint of the controller are reported as misspelt by K962. Also reports a joint on the other side of the
     robot in a list of joints, if the name of the controller or of the list states the side.
 
     In the Python code of the workspace, compares the values in ``JointTrajectory`` and ``JointState`` messages with the
@@ -119,5 +119,5 @@ def _of_other_side(one: ControllerSettings, model: Model) -> Iterator[tuple[Node
         item, names = value.items[wrong[0]], value.texts()
         meant = [each for each in mirrored(item.text) if each in model.robot.joint_by_name and each not in names]
         if len(meant) == 1 and item.text in model.robot.joint_by_name:
-            message = f"`{key.text}` of controller `{one.name}` has `{item.text}` of the other side"
+            message = f"`{key.text}` of controller `{one.name}` lists `{item.text}`, which is on the other side"
             yield item, meant[0], message

@@ -83,7 +83,7 @@ class JointContradictsName(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each joint that moves otherwise than its name states."""
+        """Yield a finding for each joint that moves differently from what its name suggests."""
         if model.is_incomplete:
             return
         stated = stated_directions(model)
@@ -107,7 +107,7 @@ def _fault(joint: Joint, model: Model) -> tuple[str, Element, str] | None:
     """Return the fault of the motion of a joint, the element with it, and its attribute; None if it suits the name."""
     turns = joint.type in ("revolute", "continuous")
     if turns and _SLIDES.search(joint.name):
-        return f"joint `{joint.name}` turns, although its name states that it slides", joint.element, "type"
+        return f"joint `{joint.name}` rotates, but its name suggests that it slides", joint.element, "type"
     about_vertical, about_horizontal = _ABOUT_VERTICAL.search(joint.name), _ABOUT_HORIZONTAL.search(joint.name)
     lifts = _LIFTS.search(joint.name)
     if not (about_vertical or about_horizontal or lifts) or (about_vertical and (about_horizontal or lifts)):

@@ -39,7 +39,7 @@ export class Layout {
 
   /** Apply a layout; parts that it does not have stay. `whole`: with the camera. */
   apply(layout, whole = true) {
-    if (layout?.version !== 1) throw new Error("this file is not a layout of urdfkit (version 1)");
+    if (layout?.version !== 1) throw new Error("this file is not a urdfkit layout (version 1)");
     const { panels, displays, viewport } = this.page;
     if (layout.panels) panels.arrange(layout.panels);
     if (layout.displays) displays.restore(layout.displays);
