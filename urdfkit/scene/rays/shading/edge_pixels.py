@@ -28,11 +28,11 @@ def outline(colors: Any, alike: int, found: Any) -> int:
 
 
 @inlined
-def differ(colors: Any, row: int, column: int, beside: int, next_to: int, alike: int) -> bool:
+def differ(colors: Any, row: int, column: int, other_row: int, other_column: int, alike: int) -> bool:
     """Return whether two pixels differ."""
     most = 0
     for c in range(3):
-        one, other = colors[row, column, c], colors[beside, next_to, c]
+        one, other = colors[row, column, c], colors[other_row, other_column, c]
         most = max(
             most, one - other if one > other else other - one
         )  # unsigned: a negative difference would wrap around

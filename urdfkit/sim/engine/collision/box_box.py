@@ -15,7 +15,7 @@ FAR, FOUND, UNSURE = range(3)
 """Results: farther apart than the limit, found, and not decidable by these axes alone."""
 PARALLEL = 1e-14
 """One minus the cosine of the angle below which faces count as parallel."""
-BESIDE = 1e-9
+TOLERANCE = 1e-9
 """Tolerance [m] for a corner to be over a face, and by which an edge must be better than a face."""
 SAME_EDGE = 1e-8
 """Square of the sine between two edges below which they have no axis of their own."""
@@ -38,9 +38,9 @@ def over_face(box: Any, k: int, point: Vector) -> bool:
     _, size, R, p, _ = box
     x, y, z = unrotate(R, sub(point, p))
     return bool(
-        (k == 0 or abs(x) <= size[0] + BESIDE)
-        and (k == 1 or abs(y) <= size[1] + BESIDE)
-        and (k == 2 or abs(z) <= size[2] + BESIDE)
+        (k == 0 or abs(x) <= size[0] + TOLERANCE)
+        and (k == 1 or abs(y) <= size[1] + TOLERANCE)
+        and (k == 2 or abs(z) <= size[2] + TOLERANCE)
     )
 
 
@@ -83,11 +83,11 @@ def box_and_box(a: Any, b: Any, limit: float) -> tuple[int, Vector, float, Vecto
         gap, best = on_a[1], 1
     if on_a[2] > gap:
         gap, best = on_a[2], 2
-    if on_b[0] > gap + BESIDE:
+    if on_b[0] > gap + TOLERANCE:
         gap, best = on_b[0], 3
-    if on_b[1] > gap + BESIDE:
+    if on_b[1] > gap + TOLERANCE:
         gap, best = on_b[1], 4
-    if on_b[2] > gap + BESIDE:
+    if on_b[2] > gap + TOLERANCE:
         gap, best = on_b[2], 5
     if gap > limit:
         return FAR, ZERO, gap, ZERO
@@ -98,17 +98,17 @@ def box_and_box(a: Any, b: Any, limit: float) -> tuple[int, Vector, float, Vecto
         square = 1.0 - c[0] * c[0]
         if square > SAME_EDGE:
             here = edge_gap(t[1], t[2], c[1], c[2], e[1], e[2], f_u, f_w, u[0], w[0])
-            if here > (gap + BESIDE) * square**0.5:
+            if here > (gap + TOLERANCE) * square**0.5:
                 return UNSURE, ZERO, gap, ZERO
         square = 1.0 - c[1] * c[1]
         if square > SAME_EDGE:
             here = edge_gap(t[2], t[0], c[2], c[0], e[2], e[0], f_u, f_w, u[1], w[1])
-            if here > (gap + BESIDE) * square**0.5:
+            if here > (gap + TOLERANCE) * square**0.5:
                 return UNSURE, ZERO, gap, ZERO
         square = 1.0 - c[2] * c[2]
         if square > SAME_EDGE:
             here = edge_gap(t[0], t[1], c[0], c[1], e[0], e[1], f_u, f_w, u[2], w[2])
-            if here > (gap + BESIDE) * square**0.5:
+            if here > (gap + TOLERANCE) * square**0.5:
                 return UNSURE, ZERO, gap, ZERO
     if best < 3:
         along = t[0] if best == 0 else (t[1] if best == 1 else t[2])

@@ -25,14 +25,14 @@ def point_and_cylinder(a: Any, b: Any) -> tuple[Vector, float, Vector]:
     off = math.sqrt(x * x + y * y)
     outward = (x / off, y / off, 0.0) if off > 1e-12 * size[0] else (1.0, 0.0, 0.0)
     up = (0.0, 0.0, 1.0 if z >= 0.0 else -1.0)
-    beside, above = off - size[0], abs(z) - size[1]
-    if beside > 0.0 and above > 0.0:
-        gap = math.sqrt(beside * beside + above * above)
-        normal = scale(1.0 / gap, add(scale(beside, outward), scale(above, up)))
-    elif beside > above:
-        gap, normal = beside, outward
+    radial, axial = off - size[0], abs(z) - size[1]
+    if radial > 0.0 and axial > 0.0:
+        gap = math.sqrt(radial * radial + axial * axial)
+        normal = scale(1.0 / gap, add(scale(radial, outward), scale(axial, up)))
+    elif radial > axial:
+        gap, normal = radial, outward
     else:
-        gap, normal = above, up
+        gap, normal = axial, up
     normal = rotate(R, normal)
     return scale(sign, normal), gap, sub(point, scale(0.5 * gap, normal))
 

@@ -177,11 +177,11 @@ def account(w: KernelWorld, first: int, beyond: int, dt: float) -> None:
     for d in range(first, beyond):
         row = w.memory[d] / dt
         most = w.motor_effort[d]
-        beside = friction_with_motor(w, d, w.v)
+        friction = friction_with_motor(w, d, w.v)
         if most == 0.0:
             motor = 0.0
         elif w.friction[d] > 0.0 and most <= w.friction[d] and w.motor_velocity[d] != 0.0:
-            motor = beside
+            motor = friction
         else:
             motor = min(most, max(-most, row))
         servo = 0.0
@@ -195,7 +195,7 @@ def account(w: KernelWorld, first: int, beyond: int, dt: float) -> None:
             if w.ki[d] != 0.0:
                 grow_integral(w, d, dt)
         w.effort[d] = motor + servo
-        w.tau[d] = row + beside + servo + w.applied[d] - w.damping[d] * w.v[d]
+        w.tau[d] = row + friction + servo + w.applied[d] - w.damping[d] * w.v[d]
         at_limit = at_limit or (w.motor_row[d] != 0 and abs(row) > most * (1.0 - 1e-9))
     if not at_limit:
         for d in range(first, beyond):
