@@ -6,6 +6,7 @@ named views. A copy of the blocks is a copy of the whole simulation.
 
 from __future__ import annotations
 
+import mmap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
@@ -142,6 +143,16 @@ class Arrays:
         return self.views[name]
 
 
+def _zeros(count: int, kind: type[Any]) -> NDArray[Any]:
+    """Return zeros in pages that take memory, and the time to clear it, when they are first used.
+
+    numpy requests pages of 2 MB for large arrays. Of a matrix for all rows that an island may have, most worlds use a
+    few kilobytes, and clearing 2 MB for each takes a first step up to 5 ms.
+    """
+    flags = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_PRIVATE") else {}
+    return np.frombuffer(mmap.mmap(-1, max(8, 8 * count), **flags), dtype=kind, count=count)
+
+
 def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
     """Return blocks of zeros for these counts, in the order of `LETTERS`; rows of J have `width` entries.
 
@@ -163,9 +174,9 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
     float_starts = np.cumsum([0, *(int(np.prod(shape(size))) + lanes.get(size, 0) for size in FLOATS.values())])
     integer_starts = FIRST_INTEGER + np.cumsum([0, *(int(np.prod(shape(size))) for size in INTEGERS.values())])
     try:
-        floats = np.zeros(int(float_starts[-1]))
-        integers = np.zeros(int(integer_starts[-1]), dtype=np.int64)
-    except MemoryError:
+        floats = _zeros(int(float_starts[-1]), np.float64)
+        integers = _zeros(int(integer_starts[-1]), np.int64)
+    except (MemoryError, OSError, OverflowError, ValueError):
         needed = 8e-9 * float(float_starts[-1] + integer_starts[-1])
         raise SimulationError(
             f"a world of {counts['t']} robots and bodies with {counts['k']} collision shapes needs {needed:.3g} GB of "
