@@ -41,6 +41,8 @@ arc, the steps of the last updates and of the next, and the coordinates of its e
 ODOMETER = FIRST_COORDINATE + ENCODERS
 BLOCK_WORDS = 4
 """Words of 32 bits in which ``block_after`` has the trees that one shares a block with."""
+NEIGHBOURS = 16 * BLOCK_WORDS
+"""Room in ``block_near`` for each tree: all pairs of the trees of an island fit."""
 ATTEMPT = 3
 LAST_ATTEMPT, TURNS, SKIPPED = range(ATTEMPT)
 """Places in ``attempt`` of a tree, see `augmented_newton`: which attempt solved the last step, how often in turn it was
@@ -95,8 +97,8 @@ INTEGERS = _sizes(
     "shape_owner:k shape_meets:k shape_data:k contact_body:c contact_other:c contact_shape:c contact_against:c",
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
     "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
-    f"block_after:t,{BLOCK_WORDS} block_near:t odometer:t,{ODOMETER} tree_link:t+1 link_body:l attempt:t,{ATTEMPT}",
-    "unguessed:t,2",
+    f"block_after:t,{BLOCK_WORDS} first_near:t+1 block_near:t,{NEIGHBOURS} odometer:t,{ODOMETER} tree_link:t+1",
+    f"link_body:l attempt:t,{ATTEMPT} unguessed:t,2",
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

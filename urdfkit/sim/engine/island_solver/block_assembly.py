@@ -4,7 +4,6 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.island_solver.block_matrix import list_after
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
@@ -74,11 +73,10 @@ def clear(w: KernelWorld, n: int) -> None:
     K, first = w.B, w.block_first
     k = 0
     while first[k] < n:
-        neighbours = list_after(w, k, n)
         for i in range(first[k] * n, first[k + 1] * n, n):
             for j in range(i + first[k], i + first[k + 1]):
                 K[j] = 0.0
-            for each in range(neighbours):
+            for each in range(w.first_near[k], w.first_near[k + 1]):
                 b = w.block_near[each]
                 for j in range(i + first[b], i + first[b + 1]):
                     K[j] = 0.0

@@ -39,15 +39,25 @@ def flip(after: Any, k: int, b: int) -> None:
 
 
 @inlined
-def list_after(w: KernelWorld, k: int, n: int) -> int:
-    """List the trees after k that it shares a block with in ``block_near``; return how many."""
-    found, b = 0, k + 1
-    while w.block_first[b] < n:
-        if is_neighbour(w.block_after, k, b):
-            w.block_near[found] = b
-            found += 1
-        b += 1
-    return found
+def degree(after: Any, k: int, words: int) -> int:
+    """Return with how many trees tree k shares a block."""
+    total = 0
+    for i in range(words):
+        total += bits(after[WORDS * k + i])
+    return total
+
+
+@inlined
+def list_neighbours(w: KernelWorld, count: int) -> None:
+    """List the trees after each tree that it shares a block with in ``block_near``, from its ``first_near`` on."""
+    found = 0
+    for k in range(count):
+        w.first_near[k] = found
+        for b in range(k + 1, count):
+            if is_neighbour(w.block_after, k, b):
+                w.block_near[found] = b
+                found += 1
+    w.first_near[count] = found
 
 
 @inlined
@@ -66,11 +76,11 @@ def arrange(w: KernelWorld, root: int, rows: int) -> int:
     """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many.
 
     Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
-    dofs start, and ``block_after`` those after each that it shares a block with, as bits of `WORDS` words. For each
+    dofs start, and ``block_near`` those after each that it shares a block with, see `list_neighbours`. For each
     row ``at_a`` and ``at_b`` are where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none
     where there is but one tree.
     """
-    after = w.block_after
+    after, degrees = w.block_after, w.block_near
     count = 0
     tree = root
     while tree >= 0:
@@ -88,19 +98,19 @@ def arrange(w: KernelWorld, root: int, rows: int) -> int:
             if not is_neighbour(after, a, b):
                 flip(after, a, b)
                 flip(after, b, a)
+    for k in range(count):
+        degrees[k] = degree(after, k, words)
     # Of those left, the one with the fewest neighbours goes next, and its neighbours become each other's.
     first = 0
     for k in range(count):
-        best, fewest = k, MOST_TREES + 1
-        for j in range(k, count):
-            degree = 0
-            for i in range(words):
-                degree += bits(after[WORDS * j + i])
-            if degree < fewest:
-                best, fewest = j, degree
+        best = k
+        for j in range(k + 1, count):
+            if degrees[j] < degrees[best]:
+                best = j
         if best != k:
             # They exchange places, and so do their bits.
             w.block_tree[k], w.block_tree[best] = w.block_tree[best], w.block_tree[k]
+            degrees[k], degrees[best] = degrees[best], degrees[k]
             for i in range(words):
                 here, there = WORDS * k + i, WORDS * best + i
                 after[here], after[there] = after[there], after[here]
@@ -114,6 +124,7 @@ def arrange(w: KernelWorld, root: int, rows: int) -> int:
                     after[WORDS * j + i] |= after[WORDS * k + i]
                 flip(after, j, j)
                 flip(after, j, k)
+                degrees[j] = degree(after, j, words)
         tree = w.block_tree[k]
         w.tree_block[tree] = k
         w.block_first[k] = first
@@ -122,6 +133,7 @@ def arrange(w: KernelWorld, root: int, rows: int) -> int:
     if first * first > w.sizes[MATRIX]:
         return 0
     place_rows(w, rows)
+    list_neighbours(w, count)
     return first
 
 
@@ -141,7 +153,7 @@ def eliminate(w: KernelWorld, n: int) -> bool:
     k = 0
     while block_first[k] < n:
         first, beyond = block_first[k], block_first[k + 1]
-        neighbours = list_after(w, k, n)
+        near, beyond_near = w.first_near[k], w.first_near[k + 1]
         for d in range(first, beyond):
             pivot = K[d * n + d]
             if not pivot > 0.0:
@@ -154,7 +166,7 @@ def eliminate(w: KernelWorld, n: int) -> bool:
                 c = K[d * n + i]
                 for j in range(i, beyond):
                     K[i * n + j] -= c * K[d * n + j]
-            for at in range(neighbours):
+            for at in range(near, beyond_near):
                 b = w.block_near[at]
                 start, size = block_first[b], block_first[b + 1] - block_first[b]
                 if size == 6:
@@ -170,9 +182,9 @@ def eliminate(w: KernelWorld, n: int) -> bool:
                     c = K[d * n + i]
                     for j in range(start, start + size):
                         K[i * n + j] -= c * K[d * n + j]
-        for at in range(neighbours):
+        for at in range(near, beyond_near):
             b = w.block_near[at]
-            for to in range(at, neighbours):
+            for to in range(at, beyond_near):
                 e = w.block_near[to]
                 start, size = block_first[e], block_first[e + 1] - block_first[e]
                 for i in range(block_first[b], block_first[b + 1]):
@@ -249,7 +261,7 @@ def substitute(w: KernelWorld, n: int, x: Any) -> None:
                 x[d] = c
                 for j in range(d + 1, beyond):
                     x[j] -= c * K[d * n + j]
-        for i in range(list_after(w, k, n)):
+        for i in range(w.first_near[k], w.first_near[k + 1]):
             b = w.block_near[i]
             start, size = block_first[b], block_first[b + 1] - block_first[b]
             if sixes and size == 6:
@@ -266,7 +278,7 @@ def substitute(w: KernelWorld, n: int, x: Any) -> None:
         k -= 1
         first, beyond = block_first[k], block_first[k + 1]
         sixes = beyond - first == 6
-        for i in range(list_after(w, k, n)):
+        for i in range(w.first_near[k], w.first_near[k + 1]):
             b = w.block_near[i]
             start, size = block_first[b], block_first[b + 1] - block_first[b]
             if sixes and size == 6:

@@ -9,7 +9,6 @@ from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_assembly import add_block
-from urdfkit.sim.engine.island_solver.block_matrix import list_after
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
@@ -87,9 +86,8 @@ def assemble_unsymmetric(w: KernelWorld, root: int, rows: int, n: int, inertia: 
     above, below = w.B, w.A
     k = 0
     while w.block_first[k] < n:
-        neighbours = list_after(w, k, n)
         for i in range(w.block_first[k] * n, w.block_first[k + 1] * n, n):
-            for each in range(neighbours):
+            for each in range(w.first_near[k], w.first_near[k + 1]):
                 b = w.block_near[each]
                 for j in range(i + w.block_first[b], i + w.block_first[b + 1]):
                     above[j] = below[j] = 0.0
@@ -148,7 +146,7 @@ def take_six(X: Any, to: int, C: Any, of: int, at: int, n: int) -> None:
 
 
 @inlined
-def eliminate_block(w: KernelWorld, k: int, n: int, neighbours: int) -> bool:
+def eliminate_block(w: KernelWorld, k: int, n: int) -> bool:
     """Factor a block of the diagonal, and eliminate its rows and columns in its neighbours; return if it is regular."""
     U, L, lightness = w.B, w.A, w.slope_v
     first, beyond = w.block_first[k], w.block_first[k + 1]
@@ -161,7 +159,7 @@ def eliminate_block(w: KernelWorld, k: int, n: int, neighbours: int) -> bool:
             L[at + i] = U[i * n + d] * inverse
             # Whole rows are quicker; the entries before the diagonal are never used.
             take(U, i * n + first, L[at + i], U, at + first, beyond - first)
-        for each in range(neighbours):
+        for each in range(w.first_near[k], w.first_near[k + 1]):
             b = w.block_near[each]
             start, size = w.block_first[b], w.block_first[b + 1] - w.block_first[b]
             multiply(L, at + start, inverse, size)
@@ -179,12 +177,11 @@ def factor_unsymmetric(w: KernelWorld, n: int) -> bool:
     k = 0
     while w.block_first[k] < n:
         first, beyond = w.block_first[k], w.block_first[k + 1]
-        neighbours = list_after(w, k, n)
-        if not eliminate_block(w, k, n, neighbours):
+        if not eliminate_block(w, k, n):
             return False
-        for one in range(neighbours):
+        for one in range(w.first_near[k], w.first_near[k + 1]):
             b = w.block_near[one]
-            for other in range(one, neighbours):
+            for other in range(one, w.first_near[k + 1]):
                 e = w.block_near[other]
                 start, size = w.block_first[e], w.block_first[e + 1] - w.block_first[e]
                 for i in range(w.block_first[b], w.block_first[b + 1]):
@@ -210,10 +207,9 @@ def substitute_unsymmetric(w: KernelWorld, n: int, x: Any) -> None:
     k = 0
     while w.block_first[k] < n:
         first, beyond = w.block_first[k], w.block_first[k + 1]
-        neighbours = list_after(w, k, n)
         for d in range(first, beyond):
             take(x, d + 1, x[d], L, d * n + d + 1, beyond - d - 1)
-            for each in range(neighbours):
+            for each in range(w.first_near[k], w.first_near[k + 1]):
                 b = w.block_near[each]
                 start = w.block_first[b]
                 take(x, start, x[d], L, d * n + start, w.block_first[b + 1] - start)
@@ -221,7 +217,7 @@ def substitute_unsymmetric(w: KernelWorld, n: int, x: Any) -> None:
     while k > 0:
         k -= 1
         first, beyond = w.block_first[k], w.block_first[k + 1]
-        for each in range(list_after(w, k, n)):
+        for each in range(w.first_near[k], w.first_near[k + 1]):
             b = w.block_near[each]
             for d in range(first, beyond):
                 for j in range(w.block_first[b], w.block_first[b + 1]):

@@ -124,6 +124,8 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
                 speed[at + d - first] = w.v_start[d]
             tree = w.island_next[tree]
         guessed = is_calm(w, rows)
+        if not guessed and not guesses_again(w, root):
+            return 0
     tree = root
     while tree >= 0:
         first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
@@ -161,7 +163,9 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
         take_up(w, rows)
     if done == 0 and fast:
         done = -solve_augmented(w, root, rows, n, tiny)
-    if done == 0 and (rows <= HEAP or guesses_again(w, root)):
+    if done == 0 and (rows <= HEAP or not guessed or guesses_again(w, root)):
+        for k in range(rows):
+            w.ahead[k] = w.row_bias[k]
         # At the velocities of the last step, that is, at rest where it was.
         tree = root
         while tree >= 0:
@@ -173,6 +177,9 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
         done = -go_round(w, root, rows, n, tiny, most)
         if rows > HEAP:
             note_guess(w, root, done == 0)
+        if done == 0:
+            for k in range(rows):
+                w.row_bias[k], w.before[k] = w.ahead[k], w.last[w.slot[k]]
     tree = root
     while tree >= 0:
         first = w.tree_dof[tree]

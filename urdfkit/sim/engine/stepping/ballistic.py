@@ -9,7 +9,7 @@ parent.
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.constraints.joint_servos import smooth_motion
+from urdfkit.sim.engine.constraints.joint_servos import is_undamped, smooth_motion
 from urdfkit.sim.engine.dynamics.integration import move, turned_by
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, place, solve_forward, terms
 from urdfkit.sim.engine.kernel_world import KernelWorld
@@ -39,6 +39,24 @@ def is_ballistic(w: KernelWorld, first: int, beyond: int, rows: int) -> bool:
         if w.damping[d] != 0.0 or w.applied[d] != 0.0 or w.approach_rate[d] != 0.0:
             return False
     return True
+
+
+@inlined
+def is_flying(w: KernelWorld, tree: int, contact: int) -> bool:
+    """Return whether only gravity acts on a free body: it is ballistic, which this finds without its forces and rows.
+
+    Args:
+        w: the world's arrays.
+        tree: the only one of its island, or -1.
+        contact: first of the island, or -1.
+    """
+    if tree < 0 or contact >= 0 or not is_free_body(w, tree) or w.weightless[w.tree_body[tree]] != 0.0:
+        return False
+    first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
+    for d in range(first, beyond):
+        if w.motor_effort[d] != 0.0 or w.friction[d] != 0.0:
+            return False
+    return is_undamped(w, first, beyond) and is_ballistic(w, first, beyond, 0)
 
 
 @compiled

@@ -44,7 +44,7 @@ from urdfkit.sim.engine.solver.augmented_newton import (
     touches_fixed,
 )
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
-from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
+from urdfkit.sim.engine.stepping.ballistic import is_ballistic, is_flying, rk4_step
 from urdfkit.sim.engine.stepping.islands import contact_count
 
 FEW = 8
@@ -76,6 +76,9 @@ def solve_island(w: KernelWorld, root: int) -> int:
     attempt = 0
     # Islands with too many trees or rows for `velocity_blocks` are solved by Gauss-Seidel sweeps.
     swept = False
+    if is_flying(w, single, w.island_contact[root]):
+        rk4_step(w, root, dt)
+        return 0
     resist_rolling(w, root, dt)
     while True:
         servos = NO_SERVO
@@ -129,9 +132,8 @@ def solve_island(w: KernelWorld, root: int) -> int:
             if held:
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
-            elif single < 0 or not dense:
-                swept = True
-                continue
+            else:
+                swept = single < 0 or not dense
         if swept:
             counts[GUESSES] = -sweep(w, root, rows)
             counts[ITERATED] += 1
