@@ -111,6 +111,7 @@ ROBOT: tuple[Row, ...] = (
     ("inertia", "inertial.inertia_too_large", "InertiaTooLarge"),
     ("inertia", "inertial.inertia_too_small", "InertiaTooSmall"),
     ("inertia", "inertial.inertia_axes_swapped", "InertiaAxesSwapped"),
+    ("inertia", "inertial.inertia_unlike_shapes", "InertiaUnlikeShapes"),
     ("inertia!", "inertial.inertia_identity", "InertiaIdentity"),
     ("copied!", "inertial.inertia_copy_paste", "InertiaCopyPaste"),
     ("massless!", "inertial.moving_link_without_inertial", "MovingLinkWithoutInertial"),

@@ -34,6 +34,9 @@ _OF_VALUES = ("X103", "X104", "X124")
 _OF_WHOLE_ROBOT = frozenset(("J429", "K970", "S901", "S908", "S911", "S915", "S920", "S921"))
 """Codes of findings that compare a part with all others, so any unknown place may be their cause."""
 
+_OF_INERTIA = ("01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "14", "15", "16", "17", "18", "19")
+"""Ends of the codes of findings on a mass or a tensor by itself, which are more precise than comparisons."""
+
 _OF_OTHER_ROS = (("C705", ""), ("K967", ""), ("K972", "dependency"), ("Z807", ""))
 """Findings on a robot whose package.xml names the build system of the other version of ROS."""
 
@@ -113,6 +116,9 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("G620", ""), "name", ("S908", "")),
     (("G620", ""), "name", ("S911", "")),
     (("I503", ""), "name", ("I507", "")),
+    *((("I5" + code, ""), "name", ("I520", "")) for code in _OF_INERTIA),
+    *(((code, ""), "name", ("I520", "")) for code in ("G604", "G611", "G615", "G617", "G619", "G620")),
+    *(((code, ""), "robot", ("I520", "")) for code in ("X119", "X103", "X104")),
     (("I519", "swapped"), "line", ("I507", "")),
     (("I519", "swapped"), "name", ("I507", "")),
     (("I506", ""), "name", ("I503", "")),

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import combinations
+from math import dist
 
 from urdfkit.description.urdf.robot import Joint, Mesh, Pose, Vector
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Span
 from urdfkit.lint.facts.placement.solids import MovingBodies, Solid, diagonal, half_sizes, moving_bodies
+from urdfkit.lint.facts.root_cause import parent_at
+from urdfkit.lint.facts.twins import mirrored, side_of
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.record import record
@@ -24,6 +29,17 @@ _THIN = 0.25
 _SMALL = 0.02
 """Largest diagonal of a placeholder [m]."""
 
+_BESIDE = 0.3
+"""Smallest depth of a link in one on another branch, as a part of half the smallest size of both."""
+
+_JOINTS = 4
+"""Largest number of joints that overlap by one mistake, such as those of four flippers and their wheels."""
+
+_MEETING = re.compile(
+    r"(?i)finger|jaw|grip|hand|palm|claw|thumb|knuckle|clamp|pad|tip|door|eye|ear|lens|roller|link_?\d"
+)
+"""Names of parts that touch others, or that belong to closed chains."""
+
 _SURFACE = 1e-4
 """Distance by which a shape that is inside of another one may stick out [m]."""
 
@@ -39,11 +55,13 @@ class Overlap:
         joint: the joint that places it.
         place: the element with the wrong offset.
         message: the message of the finding.
+        written: the place of the wrong parent link, if the joint has another parent link than its counterpart.
     """
 
     joint: Joint
     place: Element
     message: str
+    written: Span | None = None
 
 
 def overlaps(model: Model) -> Iterator[Overlap]:
@@ -51,7 +69,7 @@ def overlaps(model: Model) -> Iterator[Overlap]:
     bodies = moving_bodies(model, _MOST)
     if bodies is None:
         return
-    for search in (_hidden, _coincident, _crossing):
+    for search in (_hidden, _coincident, _crossing, _beside):
         found = list(search(model, bodies))
         yield from found
         if found:
@@ -128,6 +146,57 @@ def _crossing(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
                 message = f"link `{inner[0].link.name}` is in link `{outer[0].link.name}`, which carries it over "
                 yield Overlap(joint, place, f"{message}{len(joints)} joints")
             break
+
+
+def _beside(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
+    """Yield the joint that places a link in one on another branch of the robot, if that is the only such pair."""
+    single = {body: solids[0] for body, solids in bodies.solids.items() if len(solids) == 1 and body in bodies.carriers}
+    single = {body: solid for body, solid in single.items() if diagonal(solid.shape) > _SMALL}
+    chains = {body: {body, *(carrier for carrier, _ in bodies.above(body))} for body in single}
+    found: list[tuple[str, str]] = []
+    for body, other in combinations(single, 2):
+        one, two = single[body], single[other]
+        if body in chains[other] or other in chains[body] or _MEETING.search(f"{one.link.name} {two.link.name}"):
+            continue
+        if dist(one.at.translation, two.at.translation) > (diagonal(one.shape) + diagonal(two.shape)) / 2.0:
+            continue
+        thickness = min(one.thickness, two.thickness)
+        pairs = ((one, two), (two, one))
+        if not any(
+            outer.depth(point) > _BESIDE * thickness for inner, outer in pairs for point in _inner_points(inner)
+        ):
+            continue
+        joints = [joint for name in (body, other) for joint in (bodies.carriers[name][1], *_joints_above(name, bodies))]
+        if all(map(_includes_zero, joints)):
+            found.append((body, other))
+    positions = {_origin(bodies.carriers[body][1]).origin.position for pair in found for body in pair}
+    if not found or len(positions) > _JOINTS:
+        return
+    body, other = found[0]
+    places = [(one, bodies.carriers[one][1]) for one in (body, other)]
+    moved = next((one for one, joint in places if _has_other_parent(joint, model)), None)
+    is_first = moved == body or (moved is None and _is_misplaced(body, single[body].at.translation))
+    wrong, right = (body, other) if is_first else (other, body)
+    joint = bodies.carriers[wrong][1]
+    written = parent_at(model, joint) if moved is not None else None
+    message = f"link `{single[wrong].link.name}` is in link `{single[right].link.name}`, on another branch of the robot"
+    yield Overlap(joint, _origin(joint), message, written)
+
+
+def _has_other_parent(joint: Joint, model: Model) -> bool:
+    """Return whether the counterpart of a joint on the other side has another parent link, of the middle."""
+    joints = model.robot.joint_by_name
+    other = next((joints[name] for name in mirrored(joint.name) if name in joints), None)
+    parent = joint.parent or ""
+    return other is not None and other.parent != parent and side_of(parent) == side_of(other.parent or "") == ""
+
+
+def _joints_above(body: str, bodies: MovingBodies) -> Iterator[Joint]:
+    yield from (joint for _, joint in bodies.above(body))
+
+
+def _inner_points(solid: Solid) -> Iterator[Vector]:
+    return (point for point in solid.points((-0.9, 0.0, 0.9)) if solid.depth(point) >= 0.0)
 
 
 def _is_inside(inner: Solid, centre: Vector, outer: Solid) -> bool:

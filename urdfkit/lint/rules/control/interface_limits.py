@@ -9,6 +9,12 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 _DEGREES_RATIO = 20.0
 """Ratio of a value to the limit of a revolute joint above which the value must be in degrees."""
 
+_LESS = 0.1
+"""Smallest part of a limit by which the limit of a command interface stands out."""
+
+_FEWEST = 4
+"""Smallest number of limits of command interfaces that are those of their joints."""
+
 _UNITS = {"position": ("m", "rad"), "velocity": ("m/s", "rad/s"), "effort": ("N", "N·m")}
 """Command interface → unit for a prismatic joint, and for any other."""
 
@@ -21,7 +27,8 @@ class InterfaceLimits(RobotRule):
     ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` that is not below its ``max``, and
     values that appear to be in degrees, are reported as warnings. Any other value beyond the limit of the joint is
     reported as a note, because the narrower limit still applies. An ``initial_value`` of the position outside the joint
-    limits is reported as a warning.
+    limits is reported as a warning. The only limit of positions that is narrower than that of its joint is reported as
+    a note, if all others are equal.
 
     ## Why is this bad?
     One of the two values is wrong. With ``min`` above ``max``, no command is accepted. The effect of limits that are
@@ -59,6 +66,7 @@ class InterfaceLimits(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each command interface, at its first invalid limit."""
+        yield from self._unlike_others(model)
         for block in model.robot.ros2_control:
             for part in block.element.find_all("joint"):
                 joint = model.robot.joint_by_name.get(part.get("name") or "")
@@ -68,6 +76,28 @@ class InterfaceLimits(RobotRule):
                     yield from self._check_interface(model, interface, joint)
                 for interface in part.find_all("state_interface"):
                     yield from self._check_start(model, interface, joint)
+
+    def _unlike_others(self, model: Model) -> Findings:
+        """Yield a finding for the only limit of positions that is less than that of its joint."""
+        equal, less = 0, list[tuple[Element, Joint, str, float, float]]()
+        for part in (part for block in model.robot.ros2_control for part in block.element.find_all("joint")):
+            joint = model.robot.joint_by_name.get(part.get("name") or "")
+            allowed = _limits(joint, "position") if joint is not None else None
+            for interface in part.find_all("command_interface") if allowed is not None else ():
+                for param in interface.find_all("param") if interface.get("name") == "position" else ():
+                    value, which = number(param.text), param.get("name") or ""
+                    if joint is None or allowed is None or value is None or which not in ("min", "max"):
+                        continue
+                    limit = allowed[which == "max"]
+                    equal += abs(value - limit) <= 1e-3 * max(abs(limit), 1e-3)
+                    if abs(value) < (1.0 - _LESS) * abs(limit) and value * limit > 0.0:
+                        less.append((param, joint, which, value, limit))
+        if len(less) == 1 and equal >= _FEWEST:
+            param, joint, which, value, limit = less[0]
+            unit = _UNITS["position"][joint.type != "prismatic"]
+            message = f"position command of joint `{joint.name}`: {which} is {value:g} {unit}, but the joint limit is "
+            message += f"{limit:g} {unit}; all others are those of their joints"
+            yield self.at(model, param, message, joint=joint.name, severity="note")
 
     def _check_start(self, model: Model, interface: Element, joint: Joint) -> Findings:
         allowed = _limits(joint, "position") if interface.get("name") == "position" else None

@@ -87,7 +87,7 @@ class SrdfDuplicate(RobotRule):
             if before is not element:
                 where = f" in `{of}`" if of else ""
                 message = f"duplicate {shown}{where}; the first is at {model.shown(before.origin.position)}"
-                names = (of,) if of else (str(element.get("name")),) if element.tag == "group" else ()
+                names: tuple[str, ...] = (of,) if of else (str(element.get("name")),) if element.tag == "group" else ()
                 names = tuple(links) if is_pair else names
                 kind = "pair" if is_pair else "passive" if element.tag == "passive_joint" else ""
                 yield self.at(model, element, message, severity="note" if is_pair else severity, names=names, kind=kind)

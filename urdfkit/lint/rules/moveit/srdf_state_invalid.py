@@ -90,13 +90,15 @@ class SrdfStateInvalid(RobotRule):
             for group, (element, names, is_foreign) in common.items():
                 if group in wrong:
                     continue
-                listed = ", ".join(f"`{name}`" for name in names)
-                message = f"all states of group `{group}` set {listed}, which the group does not contain"
+                shown = ", ".join(f"`{name}`" for name in names)
+                message = f"all states of group `{group}` set {shown}, which the group does not contain"
                 if not is_foreign:
-                    message = f"no state of group `{group}` has a value for {listed}, which the group contains"
+                    message = f"no state of group `{group}` has a value for {shown}, which the group contains"
                 other = _parent_of_branch(names[0], joints_of(group, root, robot) or set(), model)
-                details = {"kind": "foreign" if is_foreign else "", "names": (group, *names), "other": other}
-                yield self.at(model, element, message, joint=names[0], severity=severity, **details)
+                kind, named = "foreign" if is_foreign else "", (group, *names)
+                yield self.at(
+                    model, element, message, joint=names[0], severity=severity, kind=kind, names=named, other=other
+                )
             for state in root.find_all("group_state"):
                 group, values = state.get("group") or "", state.find_all("joint")
                 is_compared = group not in wrong and fits(root, robot)
@@ -142,8 +144,8 @@ class SrdfStateInvalid(RobotRule):
                 if foreign and len(foreign) == len(values) and not shared:
                     continue  # The state is for another group.
                 if len(missing) > len(foreign):  # otherwise the foreign joints stand for the missing ones
-                    names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
-                    message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"
+                    shown = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
+                    message = f"state `{state.get('name')}` has no value for {shown} of group `{group}`"
                     named = (state.get("name") or "",)
                     yield self.at(model, state, message, joint=missing[0], severity=severity, names=named)
 
@@ -239,7 +241,8 @@ def _in_all_states(root: Element, model: Model) -> dict[str, tuple[Element, tupl
     """
     from urdfkit.lint.facts.moveit.srdf import joints_of
 
-    joints, found = model.robot.joint_by_name, {}
+    joints = model.robot.joint_by_name
+    found: dict[str, tuple[Element, tuple[str, ...], bool]] = {}
     passive = {element.get("name") for element in root.find_all("passive_joint")}
     for group in root.find_all("group"):
         name = group.get("name") or ""

@@ -8,13 +8,16 @@ class LinksOverlap(RobotRule):
 
     ## What it does
     Compares the boxes, cylinders and spheres of links with every joint at zero: the collision shapes, or the visual
-    shapes of links without collision shapes. Reports three cases:
+    shapes of links without collision shapes. Reports four cases:
 
     - A joint places a link, with all parts that it carries, completely inside the parent link.
     - Two links that move against each other have the same shape at the same place.
     - The centre of a link is inside a link that is at least two joints closer to the root, such as a hand in an upper
       arm. Both links must have a single shape. Stages of telescopes and joints whose limits exclude zero are not
       compared.
+
+    - A link is in a link on another branch, such as a wheel in the wheel next to it. Grippers, doors and other parts
+      that touch are not compared.
 
     None of two hundred robots of public repositories has such links.
 
@@ -61,6 +64,8 @@ class LinksOverlap(RobotRule):
         for overlap in overlaps(model):
             help = "check the parent link, and the signs of the origins"
             is_placed = overlap.place is not overlap.joint.element  # Parts without <origin> are not placed yet.
-            if is_placed and not model.is_unresolved(overlap.place, "xyz"):
+            if overlap.written is not None:
+                yield self.at_span(overlap.written, overlap.message, joint=overlap.joint.name, help=help)
+            elif is_placed and not model.is_unresolved(overlap.place, "xyz"):
                 joint = overlap.joint.name
                 yield self.at(model, overlap.place, overlap.message, attribute="xyz", joint=joint, help=help)

@@ -46,7 +46,7 @@ class TwinsMisplaced(RobotRule):
       that differ by more than a twentieth
     - a left part on the right side, or a front part at the rear
     - the only joint of two chains, such as arms or legs, whose offset is not mirrored
-    - joints with equal offsets although the shapes of their parents are mirrored
+    - joints with equal offsets although the shapes of their parents, or of their own links, are mirrored
     - shapes with equal offsets although the joints of their links are mirrored
     - links of the two sides, except hands and cameras, that overlap with every joint at zero
 
@@ -141,11 +141,11 @@ class TwinsMisplaced(RobotRule):
             ends = (overlapping.name, *mirrored(overlapping.name))
             names = tuple(joint.name for joint in joints if joint.child in ends)
             written = written_at(model, place, "xyz") if place.tag == "origin" else None
-            details = {"link": overlapping.name, "help": help, "names": names}
+            name = overlapping.name
             if written is not None:
-                yield self.at_span(written, message, **details)
+                yield self.at_span(written, message, link=name, help=help, names=names)
             else:
-                yield self.at(model, place, message, attribute="xyz", **details)
+                yield self.at(model, place, message, attribute="xyz", link=name, help=help, names=names)
             break
 
 
@@ -191,6 +191,9 @@ def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
         return None
     differing = [k for k in range(3) if abs(first[k] - second[k]) > _SAME * distance]
     if not differing:
+        if pair.are_sides and pair.first.is_movable and _are_mirrored_about(pair, links, model, _SAME * distance):
+            message = f"joints {names} are not mirrored, unlike the shapes of their links: y is {first[1]:g} m for both"
+            return message, "check the sign of the coordinate"
         if not _are_in_one_place(pair, links, model) or dist(first, second) > _size(links[0], model):
             return None
         return f"joints {names} have the same origin", "check the sign of one of the coordinates"
@@ -255,6 +258,17 @@ def _equal_below_mirrored(model: Model) -> Iterator[tuple[Joint, str]]:
                 names = f"`{joint.name}` and `{other.name}`"
                 value = f"{'xyz'[k]} is {joint.origin.xyz[k]:g} m for both"
                 yield other, f"joints {names} are not mirrored, unlike the shapes of their parents: {value}"
+
+
+def _are_mirrored_about(pair: Twins, links: tuple[Link, Link], model: Model, least: float) -> bool:
+    """Return whether twins off the middle of a symmetric parent have the same y, but mirrored shapes."""
+    parent = model.extents.get(pair.first.parent or "")
+    if parent is None or abs(pair.first.origin.xyz[1]) <= least or pair.first.origin.rpy != pair.second.origin.rpy:
+        return False
+    shapes = [[shape.origin.xyz[1] for shape in shapes_of(link)] for link in links]
+    is_symmetric = abs(parent.low[1] + parent.high[1]) <= _SAME * parent.diagonal
+    is_mirrored = len(shapes[0]) == len(shapes[1]) and all(a == -b != 0.0 for a, b in zip(*shapes, strict=False))
+    return bool(shapes[0]) and is_symmetric and is_mirrored
 
 
 def _are_in_one_place(pair: Twins, links: tuple[Link, Link], model: Model) -> bool:
