@@ -97,7 +97,7 @@ class _Inliner(ast.NodeTransformer):
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in ("list", "tuple") and len(node.args) == 1:
-            return node.args[0]
+            return node if isinstance(node.args[0], ast.Constant) else node.args[0]
         function = self.functions.get(node.func.id) if isinstance(node.func, ast.Name) else None
         values = _values(function, node) if function is not None else None
         if function is None or values is None or self._depth >= _DEEPEST or not self._may_copy(function):
@@ -161,7 +161,11 @@ class _Substitution(ast.NodeTransformer):
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
         value = self._values.get(node.id) if isinstance(node.ctx, ast.Load) else None
-        return node if value is None else copy.deepcopy(value)
+        if value is None:
+            return node
+        copied = copy.deepcopy(value)
+        copied.named_at = node  # type: ignore[attr-defined]
+        return copied
 
     def visit_List(self, node: ast.List) -> ast.AST:
         self.generic_visit(node)

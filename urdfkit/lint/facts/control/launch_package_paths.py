@@ -171,4 +171,9 @@ def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> I
         assert isinstance(node, ast.expr)
         found = reader.path(node)
         if found is not None and found[1].strip("/"):
-            yield PackagePath(found[0], found[1].strip("/"), *place(source, node))
+            last = node.args[-1] if isinstance(node, ast.Call) and node.args else node
+            last = last.elts[-1] if isinstance(last, (ast.List, ast.Tuple)) else last
+            is_on_other_line = (
+                isinstance(last, ast.Constant) and last.lineno != node.lineno
+            )  # such as at a call of a function
+            yield PackagePath(found[0], found[1].strip("/"), *place(source, last if is_on_other_line else node))

@@ -34,11 +34,22 @@ def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             yield from _in_command(source, node.args[0].elts, reader)
         for word in node.keywords:
             is_node = name_of(node.func) in ("Node", "LifecycleNode") and word.arg == "arguments"
-            for item in word.value.elts if is_node and isinstance(word.value, (ast.List, ast.Tuple)) else ():
+            for item in reader.items(word.value) if is_node else ():
                 if isinstance(item, ast.Constant) and isinstance(item.value, str) and re.search(_SEVERAL, item.value):
                     yield place(source, item), f"`{item.value}` is one word; write each word as a separate string"
+                elif isinstance(item, ast.Constant) and re.fullmatch(rf"{_OPTION}\s+", str(item.value)):
+                    yield place(source, item), f"`{item.value!s}` ends with a blank, so it is an unknown option"
+                elif isinstance(item, ast.BinOp) and isinstance(item.op, ast.Add) and _is_option(item.right):
+                    yield (
+                        place(source, item.right),
+                        "no comma before this option: it becomes part of the word before it",
+                    )
             if word.arg in _LISTS and isinstance(word.value, ast.List):
                 yield from _in_list(source, word.value.elts)
+
+
+def _is_option(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and re.fullmatch(r"--[A-Za-z][\w-]*", str(node.value)) is not None
 
 
 def _in_arguments(
@@ -47,9 +58,14 @@ def _in_arguments(
     """Yield the words that run into an option before them in a launch argument such as ``gz_args``."""
     keys, values = (node.keys, node.values) if isinstance(node, ast.Dict) else (node.elts[:1], node.elts[1:])
     for key, value in zip(keys, values, strict=False):
-        if not isinstance(key, ast.Constant) or key.value not in _COMMANDS or not isinstance(value, ast.List):
+        if (
+            not isinstance(key, ast.Constant)
+            or key.value not in _COMMANDS
+            or not isinstance(value, (ast.List, ast.BinOp))
+        ):
             continue
-        for before, after in pairwise(value.elts):
+        parts = value.elts if isinstance(value, ast.List) else [value.left, value.right]
+        for before, after in pairwise(parts):
             first, second = reader.text(before), reader.text(after)
             word = first.rpartition(" ")[2] if first else ""
             if word and second is None and _is_word(after, reader) and re.fullmatch(rf"{_OPTION}|\d+", word):

@@ -17,6 +17,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control_commands import control_command
 from urdfkit.lint.facts.launch.python_api import incomplete_call
+from urdfkit.lint.facts.launch.python_lists import ACTIONS, wrong_lists
 from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
 from urdfkit.lint.facts.lifecycle_transitions import unknown_constant, wrong_transition
 
@@ -34,10 +35,6 @@ _NO_PROCESSES = (
 _TRUTH = ("true", "false", "1", "0")
 _PATHS = ("join", "LaunchConfiguration", "ParameterFile", "PathJoinSubstitution", "PathSubstitution", "RewrittenYaml")
 _VALUES = ("Command", "ParameterValue")
-_ACTIONS = (
-    *("DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription", "LifecycleNode", "Node"),
-    *("RegisterEventHandler", "SetEnvironmentVariable", "SetParameter", "TimerAction", "ComposableNodeContainer"),
-)
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer", "ComposableNode")
 _ONLY_FIRST = {
     "Command": "`Command` accepts one argument; write its words in one list",
@@ -52,7 +49,7 @@ _ONLY_FIRST = {
 def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield the place and message of each value of the wrong kind."""
     reader, classes = launch_reader(tree), launch_classes(tree)
-    created = {name for name, kind in classes.items() if kind in _ACTIONS}
+    created = {name for name, kind in classes.items() if kind in ACTIONS}
     found: Iterable[tuple[ast.expr, str]]
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (kind := class_called(node, classes)):
@@ -63,10 +60,13 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             found = [(node, f"`{node.func.id}` is an action, not a function; write it without parentheses")]
         elif isinstance(node, ast.Call) and name_of(node.func) == "bool" and len(node.args) == 1:
             found = _truth(node, node.args[0], reader)
+        elif isinstance(node, ast.Call) and name_of(node.func) in ("list", "tuple"):
+            texts = [each for each in node.args if _is_text(each) and len(reader.text(each) or "") > 1]
+            found = [(each, "this makes a list of single letters; write the string in brackets") for each in texts]
         elif isinstance(node, ast.Call) and name_of(node.func) == "join":
             found = _absolute_parts(node.args, reader)
-        elif isinstance(node, ast.Call) and name_of(node.func) == "perform":
-            found = _without_context(node, reader)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            found = (*_without_context(node, reader), *_unperformed(node, node.func, reader))
         elif isinstance(node, (ast.BinOp, ast.JoinedStr)):
             found = _as_text(node, reader)
         elif isinstance(node, ast.Attribute):
@@ -101,6 +101,7 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         yield words["value_type"], "`value_type` is a text; write a type, such as `str`, without quotes"
     elif kind == "ParameterValue":
         yield from _of_command(call, words.get("value_type"), reader)
+    yield from wrong_lists(call, kind, words, reader)
     if kind in _OF_PROCESSES and (target := words.get("target_action")) is not None:
         called = _called(target, reader)
         if called in _NO_PROCESSES:
@@ -117,17 +118,8 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         yield from _node(words, kind, reader)
     elif kind == "ExecuteProcess":
         yield from control_command(reader.items(words.get("cmd")), reader)
-    elif kind in ("TimerAction", "GroupAction"):
-        actions = words.get("actions") or (call.args[0] if kind == "GroupAction" and call.args else None)
-        if actions is not None and _called(actions, reader) in _ACTIONS:
-            yield actions, f"`actions` of `{kind}` is not a list; write it in brackets"
     elif kind == "OnStateTransition":
         yield from wrong_transition(words, reader)
-    elif kind == "LaunchDescription":
-        if len(call.args) > 1:
-            yield call.args[1], "`LaunchDescription` accepts one list of actions; join the lists with `+`"
-        elif call.args and _called(call.args[0], reader) in _ACTIONS:
-            yield call.args[0], "the argument of `LaunchDescription` is not a list; write it in brackets"
 
 
 _SUBSTITUTIONS = (
@@ -136,8 +128,23 @@ _SUBSTITUTIONS = (
 )
 
 
+_OF_STRINGS = ("endswith", "format", "lower", "replace", "split", "startswith", "strip", "upper")
+
+
+def _unperformed(call: ast.Call, method: ast.Attribute, reader: LaunchReader) -> Defects:
+    """Yield the substitutions whose text is needed before the launch evaluates them."""
+    if method.attr in _OF_STRINGS and (kind := _called(method.value, reader)) in _SUBSTITUTIONS:
+        yield method, f"a `{kind}` has no method `{method.attr}`; write `.perform(context)` before it"
+    mappings = next((each.value for each in call.keywords if each.arg == "mappings"), None)
+    value = _value(mappings, reader) if mappings is not None and method.attr == "process_file" else None
+    for each in value.values if isinstance(value, ast.Dict) else ():
+        if (kind := _called(each, reader)) in _SUBSTITUTIONS:
+            yield each, f"xacro needs a string, not a `{kind}`; write `.perform(context)` after it"
+
+
 def _without_context(call: ast.Call, reader: LaunchReader) -> Defects:
-    value = call.func.value if isinstance(call.func, ast.Attribute) and not (call.args or call.keywords) else None
+    is_bare = name_of(call.func) == "perform" and not (call.args or call.keywords)
+    value = call.func.value if isinstance(call.func, ast.Attribute) and is_bare else None
     if value is not None and _called(value, reader) in _SUBSTITUTIONS:
         yield call.func, "`perform` needs the launch context; write `perform(context)`"
 
@@ -210,7 +217,9 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
                 and (path := _description_path(each, reader))
             ):
                 message = f"`robot_description` is the path of `{path}` and not its text; run xacro with `Command`"
-                yield _value(each, reader), message
+                yield each, message
+            elif key is not None and reader.text(key) == "robot_description" and _is_document(each, reader):
+                yield each, "`robot_description` is an XML document and not its text; write `.toxml()` after it"
     for item in reader.items(words["arguments"]) if "arguments" in words else ():
         number = item.operand if isinstance(item, ast.UnaryOp) else item
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
@@ -225,6 +234,14 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
     pairs = reader.items(remappings) if remappings is not None else []
     if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
         yield remappings, 'an item of `remappings` is a string; write pairs, [("from", "to")]'
+
+
+def _is_document(node: ast.expr, reader: LaunchReader) -> bool:
+    """Return whether an expression is the result of ``xacro.process_file``."""
+    value = _value(node, reader)
+    if isinstance(value, ast.Call) and name_of(value.func) == "ParameterValue" and value.args:
+        value = value.args[0]
+    return _called(value, reader) == "process_file"
 
 
 def _description_path(node: ast.expr, reader: LaunchReader) -> str:

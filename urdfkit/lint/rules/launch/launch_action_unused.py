@@ -61,6 +61,8 @@ class LaunchActionUnused(RobotRule):
             unknown: dict[str, ast.Name] | None = None
             own = _in_place_of(tree) if len(created.keys() - used) == 1 else None
             for name, (node, kind) in created.items():
+                if not _returns(tree, node):  # python-launch-name-undefined reports the function
+                    continue
                 if name in used or used & _SCOPES or re.search(rf"#.*\b{re.escape(name)}\b", source.text):
                     continue
                 unknown = undefined(tree) if unknown is None else unknown
@@ -87,6 +89,13 @@ class LaunchActionUnused(RobotRule):
         }.get(kind, "it has no effect")
         message = f"{kind} `{node.id}` {only}is not added to the launch description: {effect}"
         return self.at_span(source.span(*place(source, at)), message)
+
+
+def _returns(tree: ast.Module, node: ast.Name) -> bool:
+    """Return whether the outermost function around a node has a ``return``; also true without a function."""
+    around = (each for each in tree.body if isinstance(each, ast.FunctionDef) and each.lineno < node.lineno)
+    inside = [each for each in around if node.lineno <= (each.end_lineno or 0)]
+    return not inside or any(isinstance(part, ast.Return) for part in ast.walk(inside[0]))
 
 
 def _missing_from(tree: ast.Module, node: ast.Name) -> ast.expr | None:

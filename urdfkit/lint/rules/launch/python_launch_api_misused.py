@@ -22,7 +22,7 @@ class PythonLaunchApiMisused(RobotRule):
     - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
     - calls of launch classes that lack an argument, or pass one without its keyword
     - substitutions that are added to a string or inserted into an f-string
-    - lists without brackets, unknown values of ``output``, and ``items`` without a call
+    - lists without brackets or inside of other lists, unknown values of ``output``, and ``items`` without a call
     - calls of the file's own functions that lack an argument
     - the string value of a launch argument that is used as a Boolean, or compared with a Boolean
     - launch files whose format does not match the class that loads them
@@ -98,7 +98,9 @@ class PythonLaunchApiMisused(RobotRule):
             if word.arg == "launch_arguments" and name_of(word.value) == "items":
                 yield self._at(source, (start, end), "`items` is not called; write `items()`")
             elif word.arg == "launch_arguments" and isinstance(word.value, ast.Dict) and word.value.keys:
-                yield self._at(source, (end - 1, end), "`launch_arguments` is a dictionary; write `.items()` after it")
+                named = getattr(word.value, "named_at", None)  # the parameter of a function that the file calls
+                span = place(source, named) if named is not None else (end - 1, end)
+                yield self._at(source, span, "`launch_arguments` is a dictionary; write `.items()` after it")
             if word.arg == "launch_arguments":
                 for value in _not_text(word.value):
                     message = "a value of `launch_arguments` is not a string; write it in quotes"

@@ -48,7 +48,12 @@ class PythonLaunchNameUndefined(RobotRule):
             names = defined(tree) or set()
             for name, node in undefined(tree).items():
                 message = f"name `{name}` is not defined or imported" + Suggestion(first_slip(name, names), name)
-                yield self.at_span(source.span(*place(source, node)), message)
+                function = _without_context(tree, node) if name == "context" else None
+                if function is not None:
+                    message = f"the function `{function.name}` of an OpaqueFunction lacks the parameter `context`"
+                start, end = place(source, function or node)
+                end = min(end, start + len(source.text[start:end].partition("\n")[0]))
+                yield self.at_span(source.span(start, end), message)
             yield from self._description(source, tree, _FUNCTION in names)
 
     def _description(self, source: Source, tree: ast.Module, is_defined: bool) -> Findings:
@@ -75,9 +80,16 @@ class PythonLaunchNameUndefined(RobotRule):
                 lists = [node for node in own_nodes(function) if isinstance(node, ast.Expr) and _has_actions(node)]
                 for node in lists[:1] or function.body[-1:] if lists or _drops_actions(function) else ():
                     start, end = place(source, node)
-                    end = min(end, start + len(source.text[start:end].partition("\n")[0]))
+                    start = max(start, source.text.rfind("\n", start, end) + 1)  # its last line
                     message = f"the function `{function.name}` of an OpaqueFunction does not return its actions"
                     yield self.at_span(source.span(start, end), message, help="return the list of actions")
+
+
+def _without_context(tree: ast.Module, name: ast.Name) -> ast.FunctionDef | None:
+    """Return the function of an OpaqueFunction that has no parameters and in which a name is."""
+    functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef) and each.name in _opaque(tree)]
+    around = (each for each in functions if any(inner is name for inner in ast.walk(each)))
+    return next((each for each in around if not each.args.args), None)
 
 
 def _is_description(node: ast.AST) -> bool:

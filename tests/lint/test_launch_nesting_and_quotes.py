@@ -1,0 +1,135 @@
+"""Launch files with lists inside of lists, values before their evaluation, and missing folders."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.lint.test_launch_mistakes import found, package, write
+
+LAUNCH = """import os
+import xacro
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, OpaqueFunction, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def tool(name, *more):
+    return Node(package="joy", executable="joy_node", arguments=[name, "--quiet"] + list(more))
+
+
+def include(name, **words):
+    path = os.path.join(get_package_share_directory("cart"), "launch", name)
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(path), launch_arguments=words.items())
+
+
+def setup(context):
+    mode = LaunchConfiguration("mode").perform(context).lower()
+    model = xacro.process_file("cart.xacro", mappings={"mode": mode})
+    content = {"robot_description": model.toxml()}
+    return [Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[content])]
+
+
+def generate_launch_description():
+    mode = LaunchConfiguration("mode")
+    first = tool("a")
+    others = [tool("b"), tool("c", *["--fast"])]
+    return LaunchDescription([
+        DeclareLaunchArgument("mode", default_value="a"),
+        OpaqueFunction(function=setup),
+        include("other.launch.py", mode=mode, speed="1"),
+        include("other.launch.py", mode=mode, speed="2"),
+        first,
+        RegisterEventHandler(OnProcessExit(target_action=first, on_exit=others)),
+    ])
+"""
+OTHER = """from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    common = {"dev": LaunchConfiguration("mode")}
+    return LaunchDescription([
+        DeclareLaunchArgument("mode", default_value="a"),
+        DeclareLaunchArgument("speed", default_value="1"),
+        Node(package="joy", executable="joy_node", parameters=[common, {"rate": LaunchConfiguration("speed")}]),
+    ])
+"""
+MISTAKES = [
+    ("on_exit=others", "on_exit=[others]", 38, "this list of actions is inside of another list; write `*` before it"),
+    ("[name, ", "[name + ", 13, "no comma before this option: it becomes part of the word before it"),
+    ('"--quiet"', '"--quiet "', 13, "`--quiet ` ends with a blank, so it is an unknown option"),
+    ("list(more)", 'list("more")', 13, "this makes a list of single letters; write the string in brackets"),
+    ('*["--fast"]', '["d", "e"]', 31, "the strings of this inner list become one word, `de`; write `*` before it"),
+    (
+        ".perform(context).lower",
+        ".lower",
+        22,
+        "a `LaunchConfiguration` has no method `lower`; write `.perform(context)` ",
+    ),
+    (
+        ": mode}",
+        ': LaunchConfiguration("mode")}',
+        23,
+        "xacro needs a string, not a `LaunchConfiguration`; write `.perform(",
+    ),
+    (
+        "model.toxml()",
+        "model",
+        24,
+        "`robot_description` is an XML document and not its text; write `.toxml()` after it",
+    ),
+    ("words.items()", "words", 18, "`launch_arguments` is a dictionary; write `.items()` after it"),
+    (
+        "def setup(context)",
+        "def setup()",
+        21,
+        "the function `setup` of an OpaqueFunction lacks the parameter `context`",
+    ),
+    (
+        '"other.launch.py", mode=mode, speed="2"',
+        '"others.launch.py"',
+        36,
+        "`launch/others.launch.py` does not exist in ",
+    ),
+]
+
+
+def cart(tmp_path, launch=LAUNCH, other=OTHER):
+    folder = package(tmp_path / "cart", "ament_cmake", "joy", "launch_ros", "robot_state_publisher", "xacro")
+    write(folder / "launch/cart.launch.py", launch)
+    write(folder / "launch/other.launch.py", other)
+    write(folder / "config/joy.yaml", "joy_node:\n  ros__parameters:\n    deadzone: 0.1\n")
+    return folder
+
+
+CODES = ("L105", "L106", "L107", "L108", "K958")
+
+
+def test_the_correct_files_have_no_finding(tmp_path):
+    assert found(cart(tmp_path), *CODES) == []
+
+
+@pytest.mark.parametrize(("old", "new", "line", "message"), MISTAKES)
+def test_a_mistake_has_one_finding_at_its_line(tmp_path, old, new, line, message):
+    assert LAUNCH.count(old) == 1
+    [(_, at, text)] = found(cart(tmp_path, LAUNCH.replace(old, new)), *CODES)
+    assert at == line
+    assert text.startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[common, ", "[[common], ", "this list of parameters is inside of another list; write `*` before it"),
+    ],
+)
+def test_parameters_in_inner_lists_are_reported(tmp_path, old, new, message):
+    assert OTHER.count(old) == 1
+    [(_, _, text)] = found(cart(tmp_path, other=OTHER.replace(old, new)), *CODES)
+    assert text.startswith(message)
