@@ -133,3 +133,30 @@ def test_parameters_in_inner_lists_are_reported(tmp_path, old, new, message):
     assert OTHER.count(old) == 1
     [(_, _, text)] = found(cart(tmp_path, other=OTHER.replace(old, new)), *CODES)
     assert text.startswith(message)
+
+
+XML = """<launch>
+  <arg name="map" default="hall.yaml"/>
+  <node pkg="joy" exec="joy_node" name="joy_node">
+    <param name="{name}" value="{value}"/>
+    <param from="$(find-pkg-share cart)/{path}"/>
+  </node>
+</launch>
+"""
+INSTALL = "install(DIRECTORY config {more} DESTINATION share/${{PROJECT_NAME}}{to})\n"
+
+
+@pytest.mark.parametrize(
+    ("install", "is_missing"),
+    [
+        (INSTALL.format(more="launch", to=""), True),
+        (INSTALL.format(more="launch", to="").replace("config", "config/"), False),
+        ("install(FILES ${YAMLS} DESTINATION share/${PROJECT_NAME})\n", False),
+    ],
+)
+def test_a_file_in_a_folder_is_missing_at_the_root_of_its_package(tmp_path, install, is_missing):
+    folder = cart(tmp_path)
+    write(folder / "CMakeLists.txt", f"project(cart)\n{install}")
+    write(folder / "launch/joy.launch.xml", XML.format(name="dev", value="$(var map)", path="joy.yaml"))
+    messages = [text for _, _, text in found(folder, "K958")]
+    assert bool(messages) == is_missing

@@ -96,12 +96,28 @@ def _exists(package: Path, path: str, model: Model) -> bool:
     if packages.whereabouts(package / path):
         return True
     packages.watch(package, ".txt")
-    if any(file.is_file() for pattern in (f"*/{path}", f"*/*/{path}", f"{path}.*") for file in package.glob(pattern)):
-        return True
     build_files = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
-    stem = rf"(?<![\w-]){re.escape(Path(path).name.partition('.')[0])}(?![\w-])"
     texts = [re.sub(_OWN_NAME, "", file.read_text("utf-8", "replace")) for file in build_files]
+    inside = [file for pattern in (f"*/{path}", f"*/*/{path}", f"{path}.*") for file in package.glob(pattern)]
+    inside = [file for file in inside if file.is_file()]
+    if len(inside) == 1 and inside[0].name == path and _keeps_folder(inside[0].parent.name, texts):
+        return False
+    if inside:
+        return True
+    stem = rf"(?<![\w-]){re.escape(Path(path).name.partition('.')[0])}(?![\w-])"
     return any(re.search(stem, text) for text in texts)
+
+
+def _keeps_folder(folder: str, texts: list[str]) -> bool:
+    """Return whether the build installs the files of a folder into a folder with the same name only."""
+    name = re.escape(folder)
+    cmake = rf"install\s*\(\s*DIRECTORY\b[^()]*?[\s/]{name}(?:\s[^()]*)?\)"
+    setup = rf"[/'\"]{name}/?['\"]\s*\)?\s*,\s*(?:glob|\[|sorted|list)"
+    of_folder = [text for text in texts if folder in text]
+    return bool(of_folder) and all(
+        (re.search(cmake, text) is not None and f"{folder}/" not in text) or re.search(setup, text) is not None
+        for text in of_folder
+    )
 
 
 def _is_created_at_run_time(package: Path, path: str) -> bool:
