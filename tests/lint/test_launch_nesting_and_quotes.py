@@ -1,4 +1,4 @@
-"""Launch files with lists inside of lists, values before their evaluation, and missing folders."""
+"""Launch files with lists inside of lists, names in quotes, values before their evaluation, and missing folders."""
 
 from __future__ import annotations
 
@@ -62,6 +62,7 @@ def generate_launch_description():
 """
 MISTAKES = [
     ("on_exit=others", "on_exit=[others]", 38, "this list of actions is inside of another list; write `*` before it"),
+    ("[name, ", '["name", ', 13, "this is the text `name`, not the value with this name; write it without quotes"),
     ("[name, ", "[name + ", 13, "no comma before this option: it becomes part of the word before it"),
     ('"--quiet"', '"--quiet "', 13, "`--quiet ` ends with a blank, so it is an unknown option"),
     ("list(more)", 'list("more")', 13, "this makes a list of single letters; write the string in brackets"),
@@ -127,12 +128,20 @@ def test_a_mistake_has_one_finding_at_its_line(tmp_path, old, new, line, message
     ("old", "new", "message"),
     [
         ("[common, ", "[[common], ", "this list of parameters is inside of another list; write `*` before it"),
+        ('LaunchConfiguration("mode")', '"mode"', "this is the text `mode`, not the value with this name; write it "),
     ],
 )
-def test_parameters_in_inner_lists_are_reported(tmp_path, old, new, message):
+def test_parameters_in_inner_lists_and_in_quotes_are_reported(tmp_path, old, new, message):
     assert OTHER.count(old) == 1
     [(_, _, text)] = found(cart(tmp_path, other=OTHER.replace(old, new)), *CODES)
     assert text.startswith(message)
+
+
+def test_names_of_frames_and_topics_are_no_values_in_quotes(tmp_path):
+    other = OTHER.replace('LaunchConfiguration("mode")}', '"odom", "frame_id": "mode"}').replace(
+        'executable="joy_node", ', 'executable="joy_node", arguments=["-topic", "mode"], '
+    )
+    assert [each for each in found(cart(tmp_path, other=other), "L106") if "text `mode`" in each[2]] == []
 
 
 XML = """<launch>
@@ -144,6 +153,21 @@ XML = """<launch>
 </launch>
 """
 INSTALL = "install(DIRECTORY config {more} DESTINATION share/${{PROJECT_NAME}}{to})\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("dev", "$(var map)", None),
+        ("dev", "maps", None),
+        ("dev", "map", "this is the text `map`, not the launch argument; write `$(var map)`"),
+        ("global_frame", "map", None),
+    ],
+)
+def test_the_name_of_an_unused_argument_is_a_forgotten_substitution(tmp_path, name, value, message):
+    folder = cart(tmp_path)
+    write(folder / "launch/joy.launch.xml", XML.format(name=name, value=value, path="config/joy.yaml"))
+    assert [text for _, _, text in found(folder, "L110")] == ([message] if message else [])
 
 
 @pytest.mark.parametrize(

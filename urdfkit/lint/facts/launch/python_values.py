@@ -19,6 +19,7 @@ from urdfkit.lint.facts.control_commands import control_command
 from urdfkit.lint.facts.launch.python_api import incomplete_call
 from urdfkit.lint.facts.launch.python_lists import ACTIONS, wrong_lists
 from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
+from urdfkit.lint.facts.launch.quoted_names import quoted_names
 from urdfkit.lint.facts.lifecycle_transitions import unknown_constant, wrong_transition
 
 Defects = Iterator[tuple[ast.expr, str]]
@@ -74,6 +75,7 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
         else:
             continue
         yield from ((place(source, at), message) for at, message in found)
+    yield from ((place(source, at), message) for at, message in quoted_names(source))
 
 
 def _value(node: ast.expr, reader: LaunchReader) -> ast.expr:

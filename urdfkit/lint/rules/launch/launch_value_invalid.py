@@ -37,6 +37,7 @@ class LaunchValueInvalid(RobotRule):
 
     - conditions and other Boolean values that are neither true nor false, and such defaults of arguments that serve as
       conditions; values with substitutions are not checked
+    - values that equal the name of a launch argument that the file does not use
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
     - invalid parameters of amcl, gmapping and other ROS 1 nodes
@@ -71,6 +72,7 @@ class LaunchValueInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unusable value."""
+        from urdfkit.lint.facts.launch.quoted_names import quoted_arguments
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
         from urdfkit.lint.facts.moveit.planning import meant_plugin
         from urdfkit.lint.facts.moveit.plugin_names import wrong_plugins_in_launch
@@ -94,7 +96,7 @@ class LaunchValueInvalid(RobotRule):
             tags = [tag for root in roots for tag in root.walk()]
             defaults = actions_of(source).defaults
             found = (each for tag in tags for each in _invalid(tag, version, model, defaults))
-            for attribute, message in (*found, *_conditions(tags)):
+            for attribute, message in (*found, *_conditions(tags), *quoted_arguments(source)):
                 yield self.at_span(source.span(attribute.value_start, attribute.value_end), message)
             for attribute in _untyped(tags) if version == 2 else ():
                 message = "the launch reads the output of the command as YAML, and stops at text that is not YAML"

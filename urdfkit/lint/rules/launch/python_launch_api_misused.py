@@ -23,6 +23,7 @@ class PythonLaunchApiMisused(RobotRule):
     - calls of launch classes that lack an argument, or pass one without its keyword
     - substitutions that are added to a string or inserted into an f-string
     - lists without brackets or inside of other lists, unknown values of ``output``, and ``items`` without a call
+    - names of unused variables in quotes
     - calls of the file's own functions that lack an argument
     - the string value of a launch argument that is used as a Boolean, or compared with a Boolean
     - launch files whose format does not match the class that loads them

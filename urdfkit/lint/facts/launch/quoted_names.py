@@ -1,0 +1,105 @@
+"""Names in quotes: texts in launch files that equal a variable or launch argument, which nothing else uses."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+
+from urdfkit.description.launch.python_constants import assignments, name_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.launch.actions import actions_of
+from urdfkit.lint.model.tags import Attribute, Document
+
+_VALUES = ("LaunchConfiguration", "PathJoinSubstitution", "join", "get_package_share_directory", "FindPackageShare")
+_LISTS = ("arguments", "cmd", "parameters")
+_NAMES_OF_OTHERS = re.compile(r"frame|link|topic")
+"""Parts of the names of parameters whose values can equal the name of a launch argument by chance."""
+
+
+def quoted_names(source: Source) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the place and message of each text in a Python launch file that is the name of an unused variable.
+
+    Such a text is a value in a dictionary, or an item of a list in it or of arguments. Variables are parameters of
+    functions and names of launch arguments and paths; launch arguments that no code uses count too.
+    """
+    tree = _parsed(source.text)
+    nodes = list(ast.walk(tree)) if tree is not None else []
+    assigned = {name for node in nodes for name in _bound(node)}
+    names = assigned - _loaded(nodes)
+    actions = actions_of(source)
+    unused = set() if actions.includes else {*actions.declared} - {name.name for name, _ in actions.used}
+    found = [
+        text
+        for text, key in _texts(nodes)
+        if text.value in names or (text.value == key and key in assigned) or (key and text.value in unused)
+    ]
+    for function in (node for node in nodes if isinstance(node, ast.FunctionDef)):
+        inner = list(ast.walk(function))
+        parameters = {each.arg for each in (*function.args.args, *function.args.kwonlyargs)} - _loaded(inner)
+        found += [text for text, _ in (_texts(inner) if parameters else ()) if text.value in parameters]
+    for text in found:
+        yield text, f"this is the text `{text.value!s}`, not the value with this name; write it without quotes"
+
+
+def _loaded(nodes: list[ast.AST]) -> set[str]:
+    return {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+
+
+@lru_cache(maxsize=100)
+def _parsed(text: str) -> ast.Module | None:
+    """Return the syntax tree of a file, in which calls of its functions are not written out."""
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+def _bound(node: ast.AST) -> Iterator[str]:
+    if isinstance(node, ast.Assign) and len(node.targets) == 1:
+        for name, value in assignments(node.targets[0], node.value):
+            if isinstance(value, ast.Call) and name_of(value.func) in _VALUES:
+                yield name.id
+
+
+def _texts(nodes: list[ast.AST]) -> Iterator[tuple[ast.Constant, str]]:
+    """Yield the texts that are values, each with the key of the dictionary that it is in."""
+    for node in nodes:
+        values: list[tuple[ast.expr, str]] = []
+        lists: list[ast.expr] = []
+        if isinstance(node, ast.Dict):
+            keys = [each.value if isinstance(each, ast.Constant) else "" for each in node.keys]
+            values = [(value, str(key)) for key, value in zip(keys, node.values, strict=True)]
+            values = [(value, key) for value, key in values if not _NAMES_OF_OTHERS.search(key)]
+            lists = [value for value, _ in values]
+        elif isinstance(node, ast.keyword) and node.arg in _LISTS:
+            lists = [node.value.left, node.value.right] if isinstance(node.value, ast.BinOp) else [node.value]
+        for items in (each.elts for each in lists if isinstance(each, ast.List)):
+            options = ["", *(str(each.value) if isinstance(each, ast.Constant) else "" for each in items)]
+            pairs = zip(items, options, strict=False)
+            values += [(item, "") for item, option in pairs if not _NAMES_OF_OTHERS.search(option)]
+        for value, key in values:
+            if isinstance(value, ast.Constant) and isinstance(value.value, str):
+                yield value, key
+
+
+def quoted_arguments(source: Source) -> Iterator[tuple[Attribute, str]]:
+    """Yield the values in an XML launch file that equal the name of a launch argument, which the file does not use."""
+    actions = actions_of(source)
+    used = {name.name for name, _ in actions.used}
+    unused = {name for name, each in actions.declared.items() if name not in used and not each.is_fixed}
+    spaces = {"ns", "namespace"} & {*actions.declared}
+    if actions.includes:
+        unused.clear()
+    word = "arg" if actions.is_ros1 else "var"
+    for root in Document(source).roots:
+        for tag in root.walk():
+            for name in ("value", "args", "ns", "namespace", "if", "unless") if tag.name != "arg" else ():
+                attribute = tag.attributes.get(name)
+                if attribute is not None and re.fullmatch(r"[A-Za-z]\w+", attribute.value.strip()):
+                    text = attribute.value.strip()
+                    own = tag.attributes.get("name") if name == "value" else None
+                    is_of_other = own is not None and _NAMES_OF_OTHERS.search(own.value) is not None
+                    if text in (spaces if name in ("ns", "namespace") else ()) or (text in unused and not is_of_other):
+                        yield attribute, f"this is the text `{text}`, not the launch argument; write `$({word} {text})`"
