@@ -58,7 +58,7 @@ def _actions(source: Source, is_ros1: bool) -> LaunchActions:
 
 def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
     if source.file.endswith(".py"):
-        from urdfkit.lint.facts.launch.python_actions import read_python
+        from urdfkit.lint.facts.launch.python.actions import read_python
 
         return read_python(source)
     text = uncommented(source)

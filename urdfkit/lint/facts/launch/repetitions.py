@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from urdfkit.description.launch.python_constants import launch_reader, name_of, unparsed
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import MOVEIT_PARTS, part_of_moveit
 from urdfkit.lint.model.model import Model

@@ -8,7 +8,7 @@ from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import did_you_mean
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
-from urdfkit.lint.facts.launch.python_api import first_slip
+from urdfkit.lint.facts.launch.python.api import first_slip
 from urdfkit.lint.facts.launch.xml_elements import (
     ACTIONS,
     ANY,

@@ -16,7 +16,7 @@ from urdfkit.description.xml.source import Source, Span
 from urdfkit.errors import ResourceError
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
-from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 

@@ -15,7 +15,7 @@ from urdfkit.description.launch.python_constants import LaunchReader, launch_rea
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.actions import launch_elements
-from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
 from urdfkit.lint.facts.launch.started_nodes import StartedNode, started_nodes
 from urdfkit.lint.facts.ros_packages import is_slip

@@ -11,7 +11,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import Node, start_of
 from urdfkit.lint.facts.launch.actions import actions_of, all_elements
-from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.facts.launch.receivers import actions_at, receiver
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.navigation.sections import sections

@@ -21,7 +21,7 @@ from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import start_of, yamls
 from urdfkit.lint.facts.launch.actions import launch_elements
-from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.nodes.started import launched_nodes

@@ -40,7 +40,7 @@ class ExitHandlerNeverRuns(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each handler that waits for a node without an end."""
-        from urdfkit.lint.facts.launch.python_names import python_files
+        from urdfkit.lint.facts.launch.python.names import python_files
         from urdfkit.lint.facts.nodes.exit_handlers import never_run, never_started
 
         for source, tree in python_files(model):

@@ -53,8 +53,8 @@ class LaunchActionUnused(RobotRule):
         """Yield a finding for each action that is not used."""
         import re
 
-        from urdfkit.lint.facts.launch.python_api import first_slip
-        from urdfkit.lint.facts.launch.python_names import python_files, undefined
+        from urdfkit.lint.facts.launch.python.api import first_slip
+        from urdfkit.lint.facts.launch.python.names import python_files, undefined
 
         for source, tree in python_files(model):
             created, used, targets = _names(tree)
@@ -152,7 +152,7 @@ def _started_again(tree: ast.Module, created: Mapping[str, object]) -> ast.Name 
 def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str], set[str]]:
     """Return the variables that only hold actions, the names that are used, and those used as targets of handlers."""
     from urdfkit.description.launch.python_constants import assignments
-    from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
+    from urdfkit.lint.facts.launch.python.names import class_called, launch_classes
 
     classes, actions = launch_classes(tree), set(_ACTIONS.split())
     created: dict[str, tuple[ast.Name, str]] = {}

@@ -148,7 +148,7 @@ class LaunchArgumentUnknown(RobotRule):
         only_misspelt: bool,
         severity: Severity,
     ) -> Findings:
-        from urdfkit.lint.facts.launch.python_api import first_slip
+        from urdfkit.lint.facts.launch.python.api import first_slip
         from urdfkit.lint.fix_builders import meant
 
         names = list(names)

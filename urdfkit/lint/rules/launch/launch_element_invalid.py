@@ -134,7 +134,7 @@ class LaunchElementInvalid(RobotRule):
 
 def _unknown(name: str, above: str, version: int) -> str | None:
     """Return the message for an element that its parent cannot contain; None for the others."""
-    from urdfkit.lint.facts.launch.python_api import differs_by_a_letter
+    from urdfkit.lint.facts.launch.python.api import differs_by_a_letter
 
     table = ELEMENTS[version]
     children = table[above].children if above in table else ()

@@ -30,7 +30,7 @@ class LaunchWordsJoined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each word that runs into the one before."""
         from urdfkit.lint.facts.launch.joined_words import joined_words
-        from urdfkit.lint.facts.launch.python_names import python_files
+        from urdfkit.lint.facts.launch.python.names import python_files
 
         for source, tree in python_files(model):
             for place, message in joined_words(source, tree):

@@ -32,7 +32,7 @@ class NodeNameDuplicate(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node whose name another node has."""
-        from urdfkit.lint.facts.launch.python_names import python_files
+        from urdfkit.lint.facts.launch.python.names import python_files
         from urdfkit.lint.facts.launch.repetitions import repeated_nodes, repeated_simulators
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
 

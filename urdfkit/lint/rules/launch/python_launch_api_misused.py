@@ -53,8 +53,8 @@ class PythonLaunchApiMisused(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each wrong import, keyword and list."""
-        from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
-        from urdfkit.lint.facts.launch.python_values import wrong_values
+        from urdfkit.lint.facts.launch.python.names import class_called, launch_classes, python_files
+        from urdfkit.lint.facts.launch.python.values import wrong_values
         from urdfkit.lint.facts.nodes.python_bindings import miscalled
 
         for source, tree in python_files(model):
@@ -71,7 +71,7 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, span, message)
 
     def _import(self, source: Source, node: ast.ImportFrom) -> Findings:
-        from urdfkit.lint.facts.launch.python_api import wrong_import, wrong_module
+        from urdfkit.lint.facts.launch.python.api import wrong_import, wrong_module
 
         module = node.module or ""
         near = wrong_module(module)
@@ -87,7 +87,7 @@ class PythonLaunchApiMisused(RobotRule):
 
     def _call(self, source: Source, node: ast.Call, kind: str, reader: LaunchReader) -> Findings:
         from urdfkit.errors import did_you_mean
-        from urdfkit.lint.facts.launch.python_api import LISTS, OF_FOXY, wrong_keyword
+        from urdfkit.lint.facts.launch.python.api import LISTS, OF_FOXY, wrong_keyword
         from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
         for word in node.keywords:

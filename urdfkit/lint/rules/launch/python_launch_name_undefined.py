@@ -41,8 +41,8 @@ class PythonLaunchNameUndefined(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the first use of each undefined name, and for a missing description."""
-        from urdfkit.lint.facts.launch.python_api import first_slip
-        from urdfkit.lint.facts.launch.python_names import defined, python_files, undefined
+        from urdfkit.lint.facts.launch.python.api import first_slip
+        from urdfkit.lint.facts.launch.python.names import defined, python_files, undefined
 
         for source, tree in python_files(model):
             names = defined(tree) or set()
@@ -57,8 +57,8 @@ class PythonLaunchNameUndefined(RobotRule):
             yield from self._description(source, tree, _FUNCTION in names)
 
     def _description(self, source: Source, tree: ast.Module, is_defined: bool) -> Findings:
-        from urdfkit.lint.facts.launch.python_api import differs_by_a_letter
-        from urdfkit.lint.facts.launch.python_names import own_nodes
+        from urdfkit.lint.facts.launch.python.api import differs_by_a_letter
+        from urdfkit.lint.facts.launch.python.names import own_nodes
 
         for function in tree.body:
             if not isinstance(function, ast.FunctionDef):
@@ -108,7 +108,7 @@ def _drops_actions(function: ast.FunctionDef) -> bool:
     """Return whether a function creates an action that no code uses; not if a call or the caller can receive it."""
     from collections import Counter
 
-    from urdfkit.lint.facts.launch.python_names import own_nodes
+    from urdfkit.lint.facts.launch.python.names import own_nodes
 
     inner = list(own_nodes(function))
     if any(isinstance(node, (ast.Yield, ast.YieldFrom, ast.Global, ast.Nonlocal)) for node in inner):

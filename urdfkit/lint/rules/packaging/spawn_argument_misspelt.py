@@ -237,7 +237,7 @@ _PACKAGE_BEFORE = (
 
 def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
     """Yield the offset, text and message of each joint after ``-J`` that is misspelt, or that alone is undefined."""
-    from urdfkit.lint.facts.launch.python_api import first_slip
+    from urdfkit.lint.facts.launch.python.api import first_slip
 
     names = {joint.name for joint in model.robot.joints}
     pairs = zip(node.arguments, node.arguments[1:], strict=False)

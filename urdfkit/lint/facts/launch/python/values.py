@@ -16,9 +16,9 @@ from urdfkit.description.launch.python_constants import LaunchReader, launch_rea
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control_commands import control_command
-from urdfkit.lint.facts.launch.python_api import incomplete_call
-from urdfkit.lint.facts.launch.python_lists import ACTIONS, wrong_lists
-from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
+from urdfkit.lint.facts.launch.python.api import incomplete_call
+from urdfkit.lint.facts.launch.python.lists import ACTIONS, wrong_lists
+from urdfkit.lint.facts.launch.python.names import class_called, launch_classes
 from urdfkit.lint.facts.launch.quoted_names import quoted_names
 from urdfkit.lint.facts.lifecycle_transitions import unknown_constant, wrong_transition
 
