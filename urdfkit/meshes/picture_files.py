@@ -15,7 +15,6 @@ PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".
 _NAMES = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE),
     ".mtl": re.compile(rb"^[ \t]*map_Kd[ \t]+(\S.*?)[ \t\r]*$", re.MULTILINE),
-    ".dae": re.compile(rb"<init_from>\s*([^<]+?)\s*</init_from>"),
     ".gltf": re.compile(rb'"uri"\s*:\s*"(?!data:)([^"]+)"'),
 }
 """Suffix → pattern of a name of an image, or of a material library."""
@@ -51,12 +50,19 @@ def picture_names(path: Path) -> tuple[str, ...]:
 
 
 def _references(path: Path) -> tuple[str, ...]:
-    return _references_in(path) if path.suffix.lower() in _NAMES and is_file(path) else ()
+    suffix = path.suffix.lower()
+    if not is_file(path) or path.stat().st_size > MAX_BYTES:
+        return ()
+    if suffix == ".dae":
+        from urdfkit.description.meshes.collada import contents
+
+        return contents(path).pictures
+    return _references_in(path) if suffix in _NAMES else ()
 
 
 @remembered
 def _references_in(path: Path) -> tuple[str, ...]:
-    found = _NAMES[path.suffix.lower()].findall(path.read_bytes()) if path.stat().st_size <= MAX_BYTES else []
+    found = _NAMES[path.suffix.lower()].findall(path.read_bytes())
     return tuple(name.decode(errors="replace") for name in found)
 
 

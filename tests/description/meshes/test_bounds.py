@@ -2,6 +2,7 @@
 
 import io
 import random
+import re
 import struct
 from pathlib import Path
 
@@ -10,6 +11,8 @@ import pytest
 import trimesh
 
 from urdfkit.description.meshes.bounds import bounds
+from urdfkit.description.meshes.collada import contents
+from urdfkit.description.meshes.format_faults import NOT_FINITE
 from urdfkit.meshes.loader import MeshLoader
 
 FLOAT32 = 1e-6
@@ -114,6 +117,38 @@ def test_units_and_nodes_of_collada_apply(before: str, space: str, tmp_path: Pat
     else:
         shares = np.subtract(*estimate) / np.subtract(*found)
         assert np.all((shares > 0.5) & (shares <= 1.0))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [('<input semantic="VERTEX" source="#v" offset="0"/>', ""), (r'(count="18000">)[^<]*', r"\g<1>@7")],
+    ids=["no vertices", "placeholder"],
+)
+def test_damaged_collada_files_are_left_to_a_full_reader(old: str, new: str, tmp_path: Path) -> None:
+    path = tmp_path / "part.dae"
+    points = np.random.default_rng(0).normal(size=(6000, 3))
+    whole = collada(points, "")
+    path.write_text(re.sub(old, new, whole))
+    assert path.read_text() != whole
+    assert bounds(path) is None
+
+
+@pytest.mark.parametrize("word", ["nan", "-INF", "1.5"])
+@pytest.mark.parametrize("count", [9, 6000], ids=["short", "long"])
+def test_vertices_that_are_no_numbers_are_found_in_collada_files(word: str, count: int, tmp_path: Path) -> None:
+    path = tmp_path / "part.dae"
+    points = np.random.default_rng(0).normal(size=(count, 3))
+    normals = '<source id="n"><float_array id="na" count="3">nan nan nan</float_array></source><vertices id="v">'
+    text = collada(points, "").replace('<vertices id="v">', normals)
+    path.write_text(text.replace(f" {points[7, 1]:.7g} ", f" {word} "))
+    assert (contents(path).fault == NOT_FINITE) == (word != "1.5")
+
+
+def test_pictures_are_named_in_the_contents_of_a_collada_file(tmp_path: Path) -> None:
+    path = tmp_path / "part.dae"
+    image = "<library_images><image><init_from> wood.png </init_from></image></library_images><library_geometries>"
+    path.write_text(collada(np.zeros((600, 3)), "").replace("<library_geometries>", image))
+    assert contents(path).pictures == ("wood.png",)
 
 
 def test_a_changed_file_is_read_again(tmp_path: Path) -> None:

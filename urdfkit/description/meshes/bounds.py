@@ -65,7 +65,7 @@ def _read(path: Path, size: int, estimated: bool) -> tuple[Corners, bool]:
     if suffix == ".dae":
         from urdfkit.description.meshes import collada
 
-        return collada.corners(path.read_bytes(), estimated=estimated), not estimated
+        return collada.corners(path, estimated=estimated), not estimated
     if suffix == ".glb":
         from urdfkit.description.meshes import gltf
 

@@ -1,7 +1,6 @@
 """Bounding boxes of COLLADA files: of all vertices of the geometries in the scene, whether a face uses them or not.
 
-Nearly all of a file is long texts of numbers. They are cut out before the rest is parsed, and only those with the
-positions of vertices are read, or a part of each.
+Of the long texts of numbers, only those with the positions of vertices are read, or a part of each.
 """
 
 from __future__ import annotations
@@ -9,18 +8,21 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from urdfkit.description.meshes.collada_outline import Outline, outline_of
+from urdfkit.description.meshes.format_faults import dae_fault
 from urdfkit.description.meshes.node_transforms import AffineTransform, moved
-from urdfkit.description.meshes.points import UnusualFileError, corners_of_columns, union
+from urdfkit.description.meshes.points import UnusualFileError, corners_of_columns, part, union
+from urdfkit.description.meshes.unchanged_files import remembered
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
+    from typing import BinaryIO
     from xml.etree.ElementTree import Element
 
     from urdfkit.description.meshes.points import Corners
 
-LONG = 500
-"""Bytes of a text that is cut out."""
 PARTS = 128
 """Parts of a text that a sample reads, evenly distributed."""
 PART = 120
@@ -30,6 +32,7 @@ _READ = ("triangles", "polylist", "polygons")
 _UNUSUAL = re.compile(
     rb"<!DOCTYPE|<!ENTITY|<\w*:?(?:instance_node|instance_controller|lookat|skew|trifans|tristrips|morph|lines\w*)\b"
 )
+_PICTURE = re.compile(rb"<init_from>\s*([^<]+?)\s*</init_from>")
 _MOST_NODES = 20_000
 
 
@@ -42,54 +45,80 @@ class _Positions(NamedTuple):
     stride: int
 
 
-def corners(content: bytes, *, estimated: bool = False) -> Corners:
+class Contents(NamedTuple):
+    """Contents of a COLLADA file without its numbers.
+
+    Attributes:
+        shapes: positions of the vertices of each geometry in the scene, with the transform of its node; empty if the
+            file is not valid, or uses features that are not read here, such as controllers.
+        unit: length of a unit [m].
+        fault: fault of the vertices; empty if none is found.
+        pictures: names of images.
+    """
+
+    shapes: tuple[tuple[_Positions, AffineTransform], ...]
+    unit: float
+    fault: str
+    pictures: tuple[str, ...]
+
+
+@remembered
+def contents(path: Path) -> Contents:
+    """Return the contents of a file. Each rule that needs some of them gets them from one reading."""
+    content = path.read_bytes()
+    outline = outline_of(content)
+    pictures = tuple(name.decode(errors="replace") for name in _PICTURE.findall(outline.skeleton))
+    try:
+        shapes, unit = _shapes(outline)
+    except UnusualFileError:
+        shapes, unit = (), 1.0
+    return Contents(shapes, unit, dae_fault(content, outline), pictures)
+
+
+def corners(path: Path, *, estimated: bool = False) -> Corners:
     """Return the corners of the bounding box [m].
 
     Args:
-        content: the file.
+        path: the file.
         estimated: read only a sample of the vertices of large geometries.
 
     Raises:
         UnusualFileError: the file is not valid, or uses features that are not read here, such as controllers.
+        OSError: the file cannot be read.
     """
+    found = contents(path)
+    columns: dict[_Positions, list[list[float]]] = {}
+    boxes: list[Corners] = []
+    with path.open("rb", buffering=0) as file:
+        for positions, transform in found.shapes:
+            if positions not in columns:
+                try:
+                    columns[positions] = _columns(file, positions, estimated)
+                except ValueError as error:
+                    raise UnusualFileError from error
+            boxes.append(_moved(columns[positions], transform))
+    low, high = union(boxes)
+    return tuple(x * found.unit for x in low), tuple(x * found.unit for x in high)  # type: ignore[return-value]
+
+
+def _shapes(outline: Outline) -> tuple[tuple[tuple[_Positions, AffineTransform], ...], float]:
+    """Return the positions of each geometry in the scene, with the transform of its node, and the unit."""
     from xml.etree.ElementTree import ParseError, fromstring
 
-    skeleton, texts = _skeleton(content)
-    if _UNUSUAL.search(skeleton):
+    if _UNUSUAL.search(outline.skeleton):
         raise UnusualFileError
     try:
-        root = fromstring(skeleton)
+        root = fromstring(outline.skeleton)
         named = {"#" + name: element for element in root.iter() if (name := element.get("id"))}
         instance = next(_all(root, "instance_visual_scene"))
-        columns: dict[_Positions, list[list[float]]] = {}
-        boxes: list[Corners] = []
-        for geometry, transform in _instances(named[instance.attrib["url"]]):
-            for positions in _positions(named[geometry], named, texts):
-                if positions not in columns:
-                    columns[positions] = _columns(content, positions, estimated)
-                boxes.append(_moved(columns[positions], transform))
-    except (ParseError, KeyError, ValueError, StopIteration, RecursionError) as error:
+        shapes = [
+            (positions, transform)
+            for geometry, transform in _instances(named[instance.attrib["url"]])
+            for positions in _positions(named[geometry], named, outline)
+        ]
+    except (ParseError, KeyError, ValueError, StopIteration, RuntimeError) as error:
         raise UnusualFileError from error
-    factor = _unit(root)
-    low, high = union(boxes)
-    return tuple(part * factor for part in low), tuple(part * factor for part in high)  # type: ignore[return-value]
-
-
-def _skeleton(content: bytes) -> tuple[bytes, list[tuple[int, int]]]:
-    """Return a document with ``@`` and a number in place of each long text, and where the texts are."""
-    parts: list[bytes] = []
-    texts: list[tuple[int, int]] = []
-    at = content.find(b"<")
-    while at >= 0:
-        following = content.find(b"<", at + 1)
-        stop = following if following >= 0 else len(content)
-        if stop - at > LONG and (end := content.find(b">", at, stop) + 1):
-            parts += (content[at:end], b"@%d" % len(texts))
-            texts.append((end, stop))
-        else:
-            parts.append(content[at:stop])
-        at = following
-    return b"".join(parts), texts
+    return tuple(shapes), _unit(root)
 
 
 def _all(element: Element, tag: str) -> Iterator[Element]:
@@ -147,7 +176,7 @@ _TRANSFORMS = {"matrix": 16, "rotate": 4, "translate": 3, "scale": 3}
 """Tag → numbers in its text."""
 
 
-def _positions(geometry: Element, named: dict[str, Element], texts: list[tuple[int, int]]) -> Iterator[_Positions]:
+def _positions(geometry: Element, named: dict[str, Element], outline: Outline) -> Iterator[_Positions]:
     """Yield the positions of the vertices that the faces of a geometry use."""
     for primitive in geometry.iter():
         if _tag(primitive) not in _READ:
@@ -158,16 +187,16 @@ def _positions(geometry: Element, named: dict[str, Element], texts: list[tuple[i
         inputs = _all(named[vertices.attrib["source"]], "input")
         source = named[next(one for one in inputs if one.get("semantic") == "POSITION").attrib["source"]]
         accessor, array = next(_all(source, "accessor")), next(_all(source, "float_array"))
-        text = (array.text or "").strip()
+        span = outline.texts.get((array.text or "").strip().encode())
         count, stride = int(accessor.attrib["count"]), int(accessor.get("stride", "1"))
-        if not text.startswith("@") or stride < 3 or accessor.get("offset", "0") != "0":
+        if span is None or stride < 3 or accessor.get("offset", "0") != "0":
             raise UnusualFileError  # fewer vertices than libraries take to load, or an unusual layout
-        yield _Positions(*texts[int(text[1:])], count, stride)
+        yield _Positions(*span, count, stride)
 
 
-def _columns(content: bytes, positions: _Positions, estimated: bool) -> list[list[float]]:
+def _columns(file: BinaryIO, positions: _Positions, estimated: bool) -> list[list[float]]:
     """Return x, y and z of all vertices, or of a sample."""
-    text = content[positions.start : positions.end].strip()
+    text = part(file, positions.start, positions.end - positions.start).strip()
     stride, length = positions.stride, positions.vertices * positions.stride
     if estimated and len(text) > 2 * PARTS * PART and (words := _sample(text, length, stride)):
         numbers = list(map(float, words))

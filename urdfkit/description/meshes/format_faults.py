@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.meshes.collada_outline import outline_of
 from urdfkit.description.meshes.points import has_infinite
 from urdfkit.description.meshes.stl import HEADER, SIZE
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from mmap import mmap
+
+    from urdfkit.description.meshes.collada_outline import Outline
 
 MAX_CHECKED = 2 * 2**20
 """Size of an OBJ file above which its faces are not checked [bytes]."""
@@ -61,14 +64,23 @@ _OTHERS = (
 """Start of a file (pattern), its format, and the suffix of a supported format."""
 
 
-def dae_fault(content: bytes) -> str:
-    """Return the fault of the vertices of a COLLADA file; empty if none is found. Normals may be no numbers."""
-    if not _NOT_FINITE_WORD.search(content):
-        return ""
-    inputs = [tag for tag in _INPUT.findall(content) if b"POSITION" in tag]
+def dae_fault(content: bytes, outline: Outline | None = None) -> str:
+    """Return the fault of the vertices of a COLLADA file; empty if none is found. Normals may be no numbers.
+
+    Args:
+        content: of the file.
+        outline: of the file, if it is known.
+    """
+    skeleton, texts = outline or outline_of(content)
+    inputs = [tag for tag in _INPUT.findall(skeleton) if b"POSITION" in tag]
     positions = {name for tag in inputs for name in _SOURCE.findall(tag)}
-    arrays = (numbers for name, numbers in _ARRAY.findall(content) if name in positions)
-    return NOT_FINITE if any(_NOT_FINITE_WORD.search(b" " + numbers) for numbers in arrays) else ""
+    for name, text in _ARRAY.findall(skeleton) if positions else ():
+        if name in positions:
+            start, end = texts.get(text, (0, 0))
+            has_letter = content.find(b"n", start, end) >= 0 or content.find(b"N", start, end) >= 0
+            if _NOT_FINITE_WORD.search(b" " + (content[start:end] if has_letter else text)):
+                return NOT_FINITE
+    return ""
 
 
 def obj_fault(content: bytes) -> str:

@@ -8,7 +8,6 @@ from urdfkit.description.meshes.bounds import bounds
 from urdfkit.description.meshes.format_faults import (
     NOT_FINITE,
     TITLES,
-    dae_fault,
     glb_fault,
     has_infinite_stl_vertex,
     obj_fault,
@@ -114,8 +113,12 @@ def _fault_in(path: Path) -> str:
         return glb_fault(head, size)
     if suffix in (".dae", ".gltf", ".ply") and (fault := text_fault(suffix, head)):
         return fault
-    check = {".obj": obj_fault, ".dae": dae_fault}.get(suffix)
-    if check is not None and size <= _LARGE and (fault := check(path.read_bytes())):
+    if suffix == ".dae":
+        from urdfkit.description.meshes.collada import contents
+
+        if fault := contents(path).fault:
+            return fault
+    if suffix == ".obj" and size <= _LARGE and (fault := obj_fault(path.read_bytes())):
         return fault
     faces = _FACES.get(suffix)
     if faces is None or bounds(path, estimated=True) is not None:
