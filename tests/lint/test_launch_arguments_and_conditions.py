@@ -81,3 +81,58 @@ def test_a_group_with_a_window_does_not_start_if_the_launch_is_headless(tmp_path
     write(cart / "launch/right.launch.xml", xml.format("unless"))
     message = "this starts `rviz2` if `headless` is true; the condition is inverted"
     assert found(cart, "L127") == [("wrong.launch.xml", 3, message)]
+
+
+ALL = """<launch>
+  <arg name="speed" default="1.0"/>
+  <arg name="gui" default="true"/>{more}
+  <include file="$(find cart)/launch/drive.launch"{option}>{passed}
+    <arg name="mode" value="slow"/>
+  </include>
+</launch>
+"""
+DRIVE = """<launch>
+  <arg name="speed" default="0.5"/>
+  <arg name="mode"/>
+  <param name="speed" value="$(arg speed)"/>
+  <param name="mode" value="$(arg mode)"/>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "option", "passed", "is_reported"),
+    [
+        ("", "", "", True),
+        ("", "", '<arg name="speed" value="$(arg speed)"/>', False),
+        ("", "", '<arg name="speed" value="2.0"/>', False),
+        ("", ' pass_all_args="true"', "", False),
+        ('<param name="v" value="$(eval 2 * arg(\'speed\'))"/>', "", "", False),
+        ('<param name="v" value="$(eval speed > 2)"/>', "", "", False),
+        ("", ' unless="$(arg speed)"', "", False),
+    ],
+)
+def test_an_unused_argument_that_the_included_file_declares_is_not_passed_on(
+    tmp_path, more, option, passed, is_reported
+):
+    cart = package(tmp_path / "cart", "catkin")
+    write(cart / "launch/all.launch", ALL.format(more=more, option=option, passed=passed))
+    write(cart / "launch/drive.launch", DRIVE)
+    message = "the include does not pass the argument `speed` on to drive.launch, which uses its default"
+    assert found(cart, "L102") == ([("all.launch", 4, message)] if is_reported else [])
+
+
+def test_files_of_ros_2_share_arguments_with_the_files_that_they_include(tmp_path):
+    cart = package(tmp_path / "cart", "ament_cmake")
+    ros2 = ALL.format(more="", option="", passed="").replace("$(find ", "$(find-pkg-share ")
+    write(cart / "launch/all.launch.xml", ros2.replace("drive.launch", "drive.launch.xml"))
+    write(cart / "launch/drive.launch.xml", DRIVE.replace("(arg", "(var"))
+    assert found(cart, "L102") == []
+
+
+def test_an_unused_argument_of_gazebo_is_not_passed_on(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "gazebo_ros")
+    lines = '<arg name="gui" default="true"/><include file="$(find gazebo_ros)/launch/empty_world.launch"/>'
+    write(cart / "launch/world.launch", f"<launch>{lines}</launch>")
+    message = "the include does not pass the argument `gui` on to empty_world.launch, which uses its default"
+    assert found(cart, "L102") == [("world.launch", 1, message)]

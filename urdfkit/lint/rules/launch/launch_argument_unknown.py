@@ -27,7 +27,8 @@ class LaunchArgumentUnknown(RobotRule):
     ## What it does
     Compares the arguments of includes with the arguments that launch files in these packages and common launch files of
     Gazebo declare. Compares the arguments of xacro commands with the ``<xacro:arg>`` elements of the description. Also
-    reports required arguments that are not passed.
+    reports required arguments that are not passed and, in ROS 1, an unused argument of the including file that the
+    included file also declares.
 
     ## Why is this bad?
     roslaunch fails with "unused args". ROS 2 and xacro ignore the argument, and the default applies.
@@ -77,8 +78,27 @@ class LaunchArgumentUnknown(RobotRule):
                     yield self._at(file, Named(call.path, start), message, "error")
                 elif outside is not None:
                     yield from self._outside(file, call, outside.split(), name)
+            yield from self._not_passed_on(file, model) if file.is_ros1 else ()
             for call in file.xacro:
                 yield from self._xacro(file, call, model)
+
+    def _not_passed_on(self, file: LaunchActions, model: Model) -> Findings:
+        """Yield the includes without an unused argument of their ROS 1 file; in ROS 2, the files share arguments."""
+        unused = [name for name, each in file.declared.items() if not (each.is_fixed or _is_evaluated(name, file))]
+        for call in file.includes if unused and not any(call.passes_all for call in file.includes) else ():
+            path = receiver(call, model)
+            actions = actions_at(path, model) if path is not None else None
+            target = call.path.rpartition("/")[2]
+            if actions is not None:
+                names = {name for name, each in actions.declared.items() if not (each.is_fixed or each.is_required)}
+            else:
+                names = {*OUTSIDE.get((call.package, target), "").split()} if path is None else set()
+            passed = {name.name for name in call.passed}
+            lost = [name for name in unused if name in names - passed]
+            if lost and passed <= {*names, *(actions.declared if actions is not None else ())}:
+                message = f"the include does not pass the argument `{lost[0]}` on to {target}, which uses its default"
+                yield self.at_span(file.source.span(call.start, call.end), message)
+                unused = [name for name in unused if name not in lost]
 
     def _outside(self, file: LaunchActions, call: Call, names: list[str], target: str) -> Findings:
         is_strict = file.is_ros1 and target == "empty_world.launch"
@@ -169,6 +189,12 @@ class LaunchArgumentUnknown(RobotRule):
 
 _OPTIONAL = frozenset(("enable", "launch", "name", "path", "run", "show", "start", "use", "with"))
 """Words that names of arguments have or lack without another meaning."""
+
+
+def _is_evaluated(name: str, file: LaunchActions) -> bool:
+    """Return whether a launch file uses an argument, also in a Python expression."""
+    expression = rf"\$\(eval\b[^\"<>]*(?<!\w){re.escape(name)}(?!\w)"
+    return any(name == use.name for use, _ in file.used) or re.search(expression, file.source.text) is not None
 
 
 def _with_these_words(name: str, others: list[str], only_optional: bool) -> str | None:
