@@ -21,7 +21,7 @@ class PythonLaunchApiMisused(RobotRule):
     - misspelt names, and names that another module defines
     - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
     - calls of launch classes that lack an argument, or pass one without its keyword
-    - substitutions that are added to a string or inserted into an f-string
+    - substitutions that Python code, an f-string or xacro uses as strings
     - lists without brackets or inside of other lists, unknown values of ``output``, and ``items`` without a call
     - names of unused variables in quotes
     - calls of the file's own functions that lack an argument

@@ -9,7 +9,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.launch.python_constants import LaunchReader
+from urdfkit.lint.facts.launch.python.names import called, value_of
 
 ACTIONS = (
     *("DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription", "LifecycleNode", "Node"),
@@ -41,13 +42,13 @@ def wrong_lists(
             what = "the argument of `LaunchDescription`" if kind == "LaunchDescription" else f"`{word}` of `{kind}`"
             yield listed, f"{what} is not a list; write it in brackets"
         items = reader.items(listed)
-        inner = next((item for item in items if isinstance(_value(item, reader), (ast.List, ast.ListComp))), None)
+        inner = next((item for item in items if isinstance(value_of(item, reader), (ast.List, ast.ListComp))), None)
         if inner is not None:
             yield inner, "this list of actions is inside of another list; write `*` before it"
     for item in reader.items(words.get("parameters")):
-        value = _value(item, reader)
+        value = value_of(item, reader)
         if isinstance(value, (ast.List, ast.BinOp)) and any(
-            isinstance(_value(each, reader), ast.Dict) for each in reader.items(value)
+            isinstance(value_of(each, reader), ast.Dict) for each in reader.items(value)
         ):
             yield item, "this list of parameters is inside of another list; write `*` before it"
     for item in reader.items(words.get("arguments")):
@@ -56,10 +57,5 @@ def wrong_lists(
             yield item, f"the strings of this inner list become one word, `{''.join(texts)}`; write `*` before it"
 
 
-def _value(node: ast.expr, reader: LaunchReader) -> ast.expr:
-    return (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
-
-
 def _is_action(node: ast.expr, reader: LaunchReader) -> bool:
-    value = _value(node, reader)
-    return isinstance(value, ast.Call) and name_of(value.func) in ACTIONS
+    return called(node, reader) in ACTIONS

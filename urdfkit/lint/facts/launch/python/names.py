@@ -5,7 +5,7 @@ import builtins
 from collections.abc import Iterator
 from functools import lru_cache
 
-from urdfkit.description.launch.python_constants import parsed
+from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.model.model import Model
 
@@ -89,6 +89,17 @@ def class_called(node: ast.expr, classes: dict[str, str]) -> str:
         root = root.value
     is_module = isinstance(root, ast.Name) and root.id in (*_ROOTS, "actions", "substitutions")
     return node.func.attr if is_module and isinstance(node.func, ast.Attribute) else ""
+
+
+def value_of(node: ast.expr, reader: LaunchReader) -> ast.expr:
+    """Return the value of a variable that is assigned once; other expressions as they are."""
+    return (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
+
+
+def called(node: ast.expr, reader: LaunchReader) -> str:
+    """Return the last part of the name that an expression, or the value of a variable, calls; empty for others."""
+    value = value_of(node, reader)
+    return name_of(value.func) if isinstance(value, ast.Call) else ""
 
 
 def own_nodes(function: ast.FunctionDef) -> Iterator[ast.AST]:

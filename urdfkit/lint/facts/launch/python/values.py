@@ -18,7 +18,12 @@ from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control_commands import control_command
 from urdfkit.lint.facts.launch.python.api import incomplete_call
 from urdfkit.lint.facts.launch.python.lists import ACTIONS, wrong_lists
-from urdfkit.lint.facts.launch.python.names import class_called, launch_classes
+from urdfkit.lint.facts.launch.python.names import called, class_called, launch_classes, value_of
+from urdfkit.lint.facts.launch.python.unevaluated import (
+    unevaluated_in_assignment,
+    unevaluated_in_call,
+    unevaluated_in_text,
+)
 from urdfkit.lint.facts.launch.quoted_names import quoted_names
 from urdfkit.lint.facts.lifecycle_transitions import unknown_constant, wrong_transition
 
@@ -57,34 +62,27 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             found = _of_call(node, kind, reader)
         elif isinstance(node, (ast.Compare, ast.If, ast.IfExp)):
             found = _compared(node, reader)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and _called(node.func, reader) in created:
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and called(node.func, reader) in created:
             found = [(node, f"`{node.func.id}` is an action, not a function; write it without parentheses")]
         elif isinstance(node, ast.Call) and name_of(node.func) == "bool" and len(node.args) == 1:
             found = _truth(node, node.args[0], reader)
         elif isinstance(node, ast.Call) and name_of(node.func) in ("list", "tuple"):
             texts = [each for each in node.args if _is_text(each) and len(reader.text(each) or "") > 1]
             found = [(each, "this makes a list of single letters; write the string in brackets") for each in texts]
-        elif isinstance(node, ast.Call) and name_of(node.func) == "join":
-            found = _absolute_parts(node.args, reader)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-            found = (*_without_context(node, reader), *_unperformed(node, node.func, reader))
+        elif isinstance(node, ast.Call):
+            found = unevaluated_in_call(node, reader)
+            if name_of(node.func) == "join":
+                found = (*found, *_absolute_parts(node.args, reader))
         elif isinstance(node, (ast.BinOp, ast.JoinedStr)):
-            found = _as_text(node, reader)
+            found = unevaluated_in_text(node, reader)
+        elif isinstance(node, ast.Assign):
+            found = unevaluated_in_assignment(node, tree, reader)
         elif isinstance(node, ast.Attribute):
             found = unknown_constant(node)
         else:
             continue
         yield from ((place(source, at), message) for at, message in found)
     yield from ((place(source, at), message) for at, message in quoted_names(source))
-
-
-def _value(node: ast.expr, reader: LaunchReader) -> ast.expr:
-    return (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
-
-
-def _called(node: ast.expr, reader: LaunchReader) -> str:
-    value = _value(node, reader)
-    return name_of(value.func) if isinstance(value, ast.Call) else ""
 
 
 def _is_text(node: ast.expr) -> bool:
@@ -105,9 +103,9 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         yield from _of_command(call, words.get("value_type"), reader)
     yield from wrong_lists(call, kind, words, reader)
     if kind in _OF_PROCESSES and (target := words.get("target_action")) is not None:
-        called = _called(target, reader)
-        if called in _NO_PROCESSES:
-            yield target, f"`target_action` of `{kind}` is `{called}`, which is not a process; write a process or node"
+        what = called(target, reader)
+        if what in _NO_PROCESSES:
+            yield target, f"`target_action` of `{kind}` is `{what}`, which is not a process; write a process or node"
     if kind in _HANDLERS:
         yield from _handler(words.get("target_action"), words.get(_HANDLERS[kind]), _HANDLERS[kind], reader)
     elif kind in ("IfCondition", "UnlessCondition") and len(call.args) == 1 and _is_text(call.args[0]):
@@ -124,46 +122,6 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
         yield from wrong_transition(words, reader)
 
 
-_SUBSTITUTIONS = (
-    *("Command", "EnvironmentVariable", "FindExecutable", "FindPackageShare", "LaunchConfiguration"),
-    *("PathJoinSubstitution", "PythonExpression", "TextSubstitution", "ThisLaunchFileDir"),
-)
-
-
-_OF_STRINGS = ("endswith", "format", "lower", "replace", "split", "startswith", "strip", "upper")
-
-
-def _unperformed(call: ast.Call, method: ast.Attribute, reader: LaunchReader) -> Defects:
-    """Yield the substitutions whose text is needed before the launch evaluates them."""
-    if method.attr in _OF_STRINGS and (kind := _called(method.value, reader)) in _SUBSTITUTIONS:
-        yield method, f"a `{kind}` has no method `{method.attr}`; write `.perform(context)` before it"
-    mappings = next((each.value for each in call.keywords if each.arg == "mappings"), None)
-    value = _value(mappings, reader) if mappings is not None and method.attr == "process_file" else None
-    for each in value.values if isinstance(value, ast.Dict) else ():
-        if (kind := _called(each, reader)) in _SUBSTITUTIONS:
-            yield each, f"xacro needs a string, not a `{kind}`; write `.perform(context)` after it"
-
-
-def _without_context(call: ast.Call, reader: LaunchReader) -> Defects:
-    is_bare = name_of(call.func) == "perform" and not (call.args or call.keywords)
-    value = call.func.value if isinstance(call.func, ast.Attribute) and is_bare else None
-    if value is not None and _called(value, reader) in _SUBSTITUTIONS:
-        yield call.func, "`perform` needs the launch context; write `perform(context)`"
-
-
-def _as_text(node: ast.BinOp | ast.JoinedStr, reader: LaunchReader) -> Defects:
-    """Yield the substitutions that are added to a text or inserted into one, which has not got their value yet."""
-    if isinstance(node, ast.JoinedStr):
-        for part in (each.value for each in node.values if isinstance(each, ast.FormattedValue)):
-            if (kind := _called(part, reader)) in _SUBSTITUTIONS:
-                yield part, f"an f-string has no access to the value of a `{kind}`; write the parts in a list"
-    elif isinstance(node.op, ast.Add):
-        for text, part in ((node.left, node.right), (node.right, node.left)):
-            is_text = isinstance(text, (ast.Constant, ast.JoinedStr)) and (_is_text(text) or not _is_text(part))
-            if is_text and (kind := _called(part, reader)) in _SUBSTITUTIONS:
-                yield part, f"a text and a `{kind}` cannot be added; write both in a list"
-
-
 def _absolute_parts(parts: list[ast.expr], reader: LaunchReader) -> Defects:
     """Yield the parts of a joined path that start with a slash: the path starts again there."""
     is_of_package = bool(parts) and reader.path(parts[0]) is not None
@@ -177,7 +135,7 @@ def _of_command(call: ast.Call, kind: ast.expr | None, reader: LaunchReader) -> 
     """Yield a ``ParameterValue`` that reads the output of a command as something else than a text."""
     value = call.args[0] if call.args else next((each.value for each in call.keywords if each.arg == "value"), None)
     kind = kind or (call.args[1] if len(call.args) > 1 else None)
-    if value is None or _called(value, reader) != "Command":
+    if value is None or called(value, reader) != "Command":
         return
     if kind is None:
         yield call, "without `value_type`, the launch reads the output of the command as YAML; add `value_type=str`"
@@ -186,7 +144,7 @@ def _of_command(call: ast.Call, kind: ast.expr | None, reader: LaunchReader) -> 
 
 
 def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, reader: LaunchReader) -> Defects:
-    if target is not None and (_is_text(target) or isinstance(_value(target, reader), (ast.List, ast.Tuple))):
+    if target is not None and (_is_text(target) or isinstance(value_of(target, reader), (ast.List, ast.Tuple))):
         what = "string" if _is_text(target) else "list"
         yield target, f"`target_action` is a {what}; write one action"
     listed = [] if reactions is None else reader.items(reactions) or [reactions]
@@ -200,17 +158,17 @@ def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, rea
 def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defects:
     for name in ("parameters", "remappings", "arguments"):
         value = words.get(name)
-        if value is not None and _called(value, reader) in (*_PATHS, *_VALUES):
+        if value is not None and called(value, reader) in (*_PATHS, *_VALUES):
             yield value, f"`{name}` of `{kind}` is not a list; write it in brackets"
     for item in reader.items(words["parameters"]) if "parameters" in words else ():
-        value = _value(item, reader)
+        value = value_of(item, reader)
         if _is_text(value) and value is item and (name := reader.text(value) or "") in reader.assigned:
             yield value, f"an item of `parameters` is the text `{name}`; write the variable `{name}` without quotes"
         elif isinstance(value, ast.Set):
             yield value, "an item of `parameters` is a set; write a colon between name and value"
-        elif _called(item, reader) in _VALUES:
+        elif called(item, reader) in _VALUES:
             yield item, "an item of `parameters` is a value without a name; write {name: value}"
-        elif _called(item, reader) == "to_moveit_configs":
+        elif called(item, reader) == "to_moveit_configs":
             yield item, "an item of `parameters` is a MoveItConfigs; write `.to_dict()` after it"
         for key, each in zip(value.keys, value.values, strict=True) if isinstance(value, ast.Dict) else ():
             if (
@@ -228,7 +186,7 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
             yield item, "an item of `arguments` is not a string; write it in quotes"
     remappings = words.get("remappings")
     for item in remappings.elts if isinstance(remappings, ast.List) else ():
-        value = _value(item, reader)
+        value = value_of(item, reader)
         if isinstance(value, ast.List) and len(value.elts) == 2 and all(_is_text(each) for each in value.elts):
             yield item, 'an item of `remappings` is a list; write a tuple, ("from", "to")'
         elif isinstance(value, ast.List):
@@ -240,15 +198,15 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
 
 def _is_document(node: ast.expr, reader: LaunchReader) -> bool:
     """Return whether an expression is the result of ``xacro.process_file``."""
-    value = _value(node, reader)
+    value = value_of(node, reader)
     if isinstance(value, ast.Call) and name_of(value.func) == "ParameterValue" and value.args:
         value = value.args[0]
-    return _called(value, reader) == "process_file"
+    return called(value, reader) == "process_file"
 
 
 def _description_path(node: ast.expr, reader: LaunchReader) -> str:
     """Return the name of the file whose path an expression is; empty if it is no path of a description."""
-    value = _value(node, reader)
+    value = value_of(node, reader)
     if isinstance(value, ast.Call) and name_of(value.func) == "ParameterValue" and value.args:
         value = value.args[0]
     found = reader.path(value)
@@ -259,7 +217,7 @@ def _description_path(node: ast.expr, reader: LaunchReader) -> str:
 def _never_equal(node: ast.Compare, reader: LaunchReader) -> Defects:
     """Yield a comparison of the text of a launch argument with a truth value of Python, or of lower with upper case."""
     for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
-        value = _value(one, reader)
+        value = value_of(one, reader)
         is_lower = isinstance(value, ast.Call) and name_of(value.func) == "lower"
         if is_lower and (text := _constant(other)) is not None and text != text.lower():
             yield node, f"a lower-case string is never `{text}`; write `{text.lower()}`"
@@ -269,17 +227,17 @@ def _never_equal(node: ast.Compare, reader: LaunchReader) -> Defects:
 
 def _performed(node: ast.expr, reader: LaunchReader) -> bool:
     """Return whether an expression is the text of a launch argument, ``LaunchConfiguration(...).perform(context)``."""
-    value = _value(node, reader)
+    value = value_of(node, reader)
     if not (isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute) and value.func.attr == "perform"):
         return False
-    return _called(value.func.value, reader) == "LaunchConfiguration"
+    return called(value.func.value, reader) == "LaunchConfiguration"
 
 
 def _truth(node: ast.expr, value: ast.expr, reader: LaunchReader) -> Defects:
     """Yield an expression that takes the text of a launch argument as a truth value."""
     if _performed(value, reader):
         yield node, 'this string is always true, even if it is `false`; compare it, for example `.lower() == "true"`'
-    elif _called(value, reader) == "LaunchConfiguration":
+    elif called(value, reader) == "LaunchConfiguration":
         yield node, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"
 
 
@@ -294,7 +252,7 @@ _SOURCES = {
 def _other_format(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     """Yield the path of a launch file in another format than its class loads."""
     endings, right = _SOURCES[kind]
-    constants = [node for node in ast.walk(_value(call.args[0], reader)) if isinstance(node, ast.Constant)]
+    constants = [node for node in ast.walk(value_of(call.args[0], reader)) if isinstance(node, ast.Constant)]
     last = max(constants, key=lambda node: (node.lineno, node.col_offset), default=None)
     text = _constant(last) if last is not None else None
     if text is not None and text.endswith(endings):
@@ -311,10 +269,10 @@ def _compared(node: ast.Compare | ast.If | ast.IfExp, reader: LaunchReader) -> D
     if isinstance(node, ast.Compare):
         parts = [node.left, *node.comparators]
         if all(isinstance(each, (ast.Eq, ast.NotEq, ast.In)) for each in node.ops):
-            use = next((each for each in parts if _called(each, reader) == "LaunchConfiguration"), None)
+            use = next((each for each in parts if called(each, reader) == "LaunchConfiguration"), None)
             if use is not None:
                 message = "this compares the object, not its value; use `EqualsSubstitution` in a condition"
                 yield node, message
             yield from _never_equal(node, reader)
-    elif _called(node.test, reader) == "LaunchConfiguration":
+    elif called(node.test, reader) == "LaunchConfiguration":
         yield node.test, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"
