@@ -121,8 +121,12 @@ def test_units_and_nodes_of_collada_apply(before: str, space: str, tmp_path: Pat
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [('<input semantic="VERTEX" source="#v" offset="0"/>', ""), (r'(count="18000">)[^<]*', r"\g<1>@7")],
-    ids=["no vertices", "placeholder"],
+    [
+        ('<input semantic="VERTEX" source="#v" offset="0"/>', ""),
+        (r'(count="18000">)[^<]*', r"\g<1>@7"),
+        (r'(count="18000">)[^<]*', r"\g<1>" + 40_000 * "1"),
+    ],
+    ids=["no vertices", "placeholder", "one number"],
 )
 def test_damaged_collada_files_are_left_to_a_full_reader(old: str, new: str, tmp_path: Path) -> None:
     path = tmp_path / "part.dae"
@@ -131,6 +135,7 @@ def test_damaged_collada_files_are_left_to_a_full_reader(old: str, new: str, tmp
     path.write_text(re.sub(old, new, whole))
     assert path.read_text() != whole
     assert bounds(path) is None
+    assert bounds(path, estimated=True) is None
 
 
 @pytest.mark.parametrize("word", ["nan", "-INF", "1.5"])

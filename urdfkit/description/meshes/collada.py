@@ -216,7 +216,7 @@ def _sample(text: bytes, length: int, stride: int) -> list[bytes]:
     found: list[bytes] = []
     counted = position = 0
     spaces = [space for space in (b" ", b"\n", b"\t", b"\r") if space in text]
-    for n in range(PARTS):
+    for n in range(PARTS if spaces else 0):
         start = text.find(spaces[0], n * len(text) // PARTS) + 1 if n else 0
         if n and not start:
             return []

@@ -16,6 +16,7 @@ from urdfkit.description.meshes.format_faults import (
     wrong_format,
 )
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
+from urdfkit.description.meshes.stl import is_binary
 from urdfkit.description.meshes.unchanged_files import remembered
 from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.lint.model.mesh_files import path_of
@@ -130,8 +131,10 @@ def _fault_in(path: Path) -> str:
 
 def _stl_fault(path: Path, head: bytes, size: int) -> str:
     triangles = int.from_bytes(head[80:84], "little")
-    is_text = head.lstrip().startswith(b"solid") and (
-        b"facet" in head or (size <= _LARGE and b"facet" in path.read_bytes())
+    is_text = (
+        not is_binary(size, head)
+        and head.lstrip().startswith(b"solid")
+        and (b"facet" in head or (size <= _LARGE and b"facet" in path.read_bytes()))
     )
     if not is_text:
         if head.lstrip().startswith(b"solid") and size < 84:
@@ -147,4 +150,4 @@ def _stl_fault(path: Path, head: bytes, size: int) -> str:
     from mmap import ACCESS_READ, mmap
 
     with path.open("rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as content:
-        return NOT_FINITE if has_infinite_stl_vertex(content) else ""
+        return NOT_FINITE if has_infinite_stl_vertex(content, is_text=is_text) else ""
