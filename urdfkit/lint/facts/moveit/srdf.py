@@ -76,13 +76,15 @@ def references(root: Element) -> Iterator[NameUse]:
                 yield NameUse(element, attribute, kind, name)
 
 
-def semantics_of(model: Model) -> Iterator[Element]:
-    """Yield the root elements of the SRDF files that describe this robot, also under the name of no robot."""
-    robot = model.robot
-    if robot.links:
-        for root in model.semantic_roots.values():
-            if root.get("name") == robot.name or is_misnamed(root, model):
-                yield root
+@lru_cache(maxsize=1)
+def semantics_of(model: Model) -> tuple[Element, ...]:
+    """Return the root elements of the SRDF files that describe this robot, also under the name of no robot."""
+    robot, roots = model.robot, model.semantic_roots.values()
+    return (
+        tuple(root for root in roots if root.get("name") == robot.name or is_misnamed(root, model))
+        if robot.links
+        else ()
+    )
 
 
 def is_misnamed(root: Element, model: Model) -> bool:
@@ -117,8 +119,13 @@ def severity_for(root: Element, model: Model, severity: Severity | None = None) 
 def fits(root: Element, robot: Robot, share: float = _LOWEST_SHARE) -> bool:
     """Return whether most links and joints that an SRDF uses exist in a robot."""
     existing: dict[str, Collection[str]] = {"link": robot.link_by_name, "joint": robot.joint_by_name}
-    names = [(each.kind, each.name) for each in references(root) if each.kind in existing]
-    return bool(names) and sum(name in existing[kind] for kind, name in names) >= share * len(names)
+    found = [
+        name in existing[kind]
+        for key, element in elements(root)
+        for attribute, kind in ELEMENTS.get(key, {}).items()
+        if kind in existing and (name := element.get(attribute))
+    ]
+    return bool(found) and sum(found) >= share * len(found)
 
 
 def virtual_joints(root: Element) -> dict[str, Element]:
@@ -173,21 +180,27 @@ def joints_of(group: str, root: Element, robot: Robot) -> set[str] | None:
 
 def near_links(link: str, model: Model) -> set[str]:
     """Return the links that at most one moving joint separates from a link; links without shapes do not count."""
-    robot = model.robot
-    near: dict[str, list[tuple[str, bool]]] = {}
-    for joint in robot.joints:
-        if joint.parent is not None and joint.child is not None:
-            near.setdefault(joint.parent, []).append((joint.child, joint.type == "fixed"))
-            near.setdefault(joint.child, []).append((joint.parent, joint.type == "fixed"))
+    near, links = _neighbours(model), model.robot.link_by_name
     distances, pending = {link: 0}, [link]
     for each in pending:  # The list grows during the iteration.
         for name, is_fixed in near.get(each, ()):
-            part = robot.link_by_name.get(name)
+            part = links.get(name)
             further = distances[each] + (not is_fixed and part is not None and bool(part.collisions))
             if further < distances.get(name, 2):
                 distances[name] = further
                 pending.append(name)
     return set(distances)
+
+
+@lru_cache(maxsize=1)
+def _neighbours(model: Model) -> dict[str, list[tuple[str, bool]]]:
+    """Return the links that joints connect to each link, each with whether the joint is fixed."""
+    near: dict[str, list[tuple[str, bool]]] = {}
+    for joint in model.robot.joints:
+        if joint.parent is not None and joint.child is not None:
+            near.setdefault(joint.parent, []).append((joint.child, joint.type == "fixed"))
+            near.setdefault(joint.child, []).append((joint.parent, joint.type == "fixed"))
+    return near
 
 
 @lru_cache(maxsize=1)

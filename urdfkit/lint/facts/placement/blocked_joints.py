@@ -10,6 +10,11 @@ from urdfkit.description.urdf.robot import Joint, Vector
 from urdfkit.lint.facts.placement.solids import Solid, diagonal, moving_bodies
 from urdfkit.lint.model.model import Model
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    Movement = Callable[[Vector], Vector]
+    """Function that moves a point of the root link."""
+
 _MOST = 40
 """Largest number of moving bodies of a robot that is checked."""
 
@@ -53,8 +58,8 @@ def blocked_joints(model: Model) -> Iterator[tuple[Joint, str]]:
         positions = [limits[0] + (limits[1] - limits[0]) * step / (_POSITIONS - 1) for step in range(_POSITIONS)]
         move = _movement(joint, frame.translation, rotate(frame.rotation, axis))
         met = _met(_points(load, rest), rest, _ground(load, rest))
-        hits = [name for position in positions if (name := met(move, position)) is not None]
-        if len(hits) >= _BLOCKED and all(met(move, -position) is None for position in positions):
+        hits = [name for position in positions if (name := met(move(position))) is not None]
+        if len(hits) >= _BLOCKED and all(met(move(-position)) is None for position in positions):
             yield joint, next((name for name in hits if name), "")
 
 
@@ -85,27 +90,29 @@ def _ground(load: list[Solid], rest: list[Solid]) -> float:
     return lowest - _GROUND if lowest < lowest_of_load - _GROUND else -inf
 
 
-def _movement(joint: Joint, pivot: Vector, axis: Vector) -> Callable[[Vector, float], Vector]:
-    """Return a function that moves a point of the load to a position of the joint."""
+def _movement(joint: Joint, pivot: Vector, axis: Vector) -> Callable[[float], Movement]:
+    """Return a function of a position of the joint: the movement of a point of the load to it."""
+    a, b, c = pivot
 
-    def slid(point: Vector, position: float) -> Vector:
-        x, y, z = (a + position * b for a, b in zip(point, axis, strict=True))
-        return x, y, z
+    def slid(position: float) -> Movement:
+        i, j, k = (position * part for part in axis)
+        return lambda point: (point[0] + i, point[1] + j, point[2] + k)
 
-    def turned(point: Vector, position: float) -> Vector:
-        offset = (point[0] - pivot[0], point[1] - pivot[1], point[2] - pivot[2])
+    def turned(position: float) -> Movement:
         i, j, k = (sin(0.5 * position) * part for part in axis)
         rotation = rotation_of_quaternion(i, j, k, cos(0.5 * position))
-        x, y, z = (a + b for a, b in zip(pivot, rotate(rotation, offset), strict=True))
-        return x, y, z
+
+        def moved(point: Vector) -> Vector:
+            x, y, z = rotate(rotation, (point[0] - a, point[1] - b, point[2] - c))
+            return a + x, b + y, c + z
+
+        return moved
 
     return slid if joint.type == "prismatic" else turned
 
 
-def _met(
-    points: list[Vector], rest: list[Solid], ground: float
-) -> Callable[[Callable[[Vector, float], Vector], float], str | None]:
-    """Return a function: the link that the points enter at a position of a joint; empty for the ground, else None."""
+def _met(points: list[Vector], rest: list[Solid], ground: float) -> Callable[[Movement], str | None]:
+    """Return a function: the link that the points enter by a movement; empty for the ground, None for none."""
     reaches = [(solid, diagonal(solid.shape) / 2.0, solid.at.translation) for solid in rest]
 
     def around(point: Vector) -> str | None:
@@ -116,8 +123,8 @@ def _met(
 
     free = [point for point in points if around(point) is None]
 
-    def met(move: Callable[[Vector, float], Vector], position: float) -> str | None:
-        names = (around(move(point, position)) for point in free)
+    def met(move: Movement) -> str | None:
+        names = (around(move(point)) for point in free)
         return next((name for name in names if name is not None), None)
 
     return met

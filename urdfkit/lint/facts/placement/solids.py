@@ -33,14 +33,15 @@ def half_sizes(shape: Geometry) -> Vector:
 
 def local(at: Frame, point: Vector) -> Vector:
     """Return a point of the root link in another frame [m]."""
-    x, y, z = (a - b for a, b in zip(point, at.translation, strict=True))
-    return turned_back(at, (x, y, z))
+    (x, y, z), (a, b, c) = point, at.translation
+    return turned_back(at, (x - a, y - b, z - c))
 
 
 def turned_back(at: Frame, vector: Vector) -> Vector:
     """Return a vector of the root link along the axes of another frame."""
-    x, y, z = (sum(at.rotation[i][k] * vector[i] for i in range(3)) for k in range(3))
-    return x, y, z
+    (a, b, c), (d, e, f), (g, h, i) = at.rotation
+    x, y, z = vector
+    return a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + i * z
 
 
 def depth(shape: Geometry, point: Vector) -> float:

@@ -94,7 +94,8 @@ class SrdfElementUnknown(RobotRule):
             joint := next(
                 (
                     each
-                    for each in model.robot.joints
+                    for link in (one, other)
+                    for each in model.robot.parents_of.get(link, ())
                     if {each.parent, each.child} == {one, other} and each.type != "fixed"
                 ),
                 None,

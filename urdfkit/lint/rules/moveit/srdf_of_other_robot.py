@@ -29,11 +29,11 @@ class SrdfOfOtherRobot(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each SRDF of this robot that names another robot."""
-        from urdfkit.lint.facts.moveit.srdf import is_misnamed, severity_for
+        from urdfkit.lint.facts.moveit.srdf import semantics_of, severity_for
 
         robot = model.robot
-        for root in model.semantic_roots.values() if robot.links else ():
-            if is_misnamed(root, model):
+        for root in semantics_of(model):
+            if root.get("name") != robot.name:
                 message = f"the SRDF is for robot `{root.get('name') or ''}`, but the URDF is robot `{robot.name}`"
                 severity, help = severity_for(root, model), f'write name="{robot.name}"'
                 yield self.at(model, root, message, attribute="name", help=help, severity=severity)

@@ -86,7 +86,8 @@ class SrdfStateInvalid(RobotRule):
                 if limit is not None:
                     help = "check the signs of the limits"
                     yield self.at(model, limit.element, message, joint=joints[0].name, severity=severity, help=help)
-            common = _in_all_states(root, model) if fits(root, robot) else {}
+            is_complete = fits(root, robot)
+            common = _in_all_states(root, model) if is_complete else {}
             for group, (element, names, is_foreign) in common.items():
                 if group in wrong:
                     continue
@@ -101,7 +102,7 @@ class SrdfStateInvalid(RobotRule):
                 )
             for state in root.find_all("group_state"):
                 group, values = state.get("group") or "", state.find_all("joint")
-                is_compared = group not in wrong and fits(root, robot)
+                is_compared = group not in wrong and is_complete
                 members = (joints_of(group, root, robot) if is_compared else None) or set()
                 for value in (value for value in values if value.get("name") not in excluded):
                     yield from self._value(value, model, severity_for(root, model, "error"))
