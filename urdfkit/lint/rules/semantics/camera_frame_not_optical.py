@@ -15,9 +15,9 @@ class CameraFrameNotOptical(RobotRule):
     """The images of a camera are in the frame of its body, or the camera itself is in the optical frame.
 
     ## What it does
-    Checks ``optical_frame_id``, ``gz_frame_id`` and the frames of camera plugins of Gazebo Classic. Reports a link that
-    has a child with ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in an optical frame,
-    recognised by an x axis that points to the right of the parent link: Gazebo cameras look along x.
+    Checks ``optical_frame_id``, without it ``gz_frame_id``, and the frames of camera plugins of Gazebo Classic. Reports
+    a link that has a child with ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in an optical
+    frame, recognised by an x axis that points to the right of the parent link: Gazebo cameras look along x.
 
     ## Why is this bad?
     Images and depth are measured along the z axis of their frame. In the frame of the body, point clouds and markers
@@ -95,7 +95,9 @@ def _frames(model: Model) -> Iterator[Element]:
         for sensor in block.sensors:
             if not _is_camera(sensor.type or ""):
                 continue
-            yield from (each for each in sensor.element.walk() if each.tag in _TAGS)
+            named = [each for each in sensor.element.walk() if each.tag in _TAGS]
+            optical = [each for each in named if each.tag == "optical_frame_id"]
+            yield from optical or named  # next to an optical frame, the other frame is that of the body
             for plugin in sensor.plugins:
                 if "camera" in (plugin.filename or "") or "kinect" in (plugin.filename or ""):
                     yield from (each for each in plugin.element.children if each.tag in ("frame_name", "frameName"))
