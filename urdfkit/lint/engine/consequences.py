@@ -252,7 +252,6 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T206", ""), "robot", ("J416", "")),
     (("T201", ""), "name", ("I511", "")),
     (("T202", ""), "names", ("T201", "")),
-    (("T202", ""), "robot", ("T203", "")),
     (("T204", ""), "robot", ("T203", "")),
     (("S917", ""), "name", ("J424", "")),
     (("J421", ""), "robot", ("K979", "size")),

@@ -9,7 +9,8 @@ class MultipleRoots(RobotRule):
 
     ## What it does
     Checks for links without a parent other than the root of the largest tree. A link is not reported if a joint names
-    an undefined child link that is probably a misspelling of it; T202 reports that joint.
+    an undefined child link that is probably a misspelling of it; T202 reports that joint. Each other undefined child
+    link accounts for one more link without a parent.
 
     ## Why is this bad?
     A robot is a single tree. urdfdom rejects a second root, robot_state_publisher cannot connect the frames, and MuJoCo
@@ -39,14 +40,15 @@ class MultipleRoots(RobotRule):
         roots = robot.roots()
         if len(roots) < 2:
             return
-        likely = set(likely_children(robot).values())
-        masked = model.masked_names
-        roots = [link for link in roots if link.name not in likely and not masked.has_child(link.name)]
-        if len(roots) < 2:
-            return
         joint_by_unknown_child: dict[str, str] = {}
         for joint, name, _ in dangling(robot, "child"):
             joint_by_unknown_child.setdefault(name, joint.name)
+        likely = likely_children(robot)
+        meant = set(likely.values())
+        masked = model.masked_names
+        roots = [link for link in roots if link.name not in meant and not masked.has_child(link.name)]
+        if len(roots) < 2 + len(joint_by_unknown_child.keys() - likely.keys()):
+            return
         main = max(roots, key=lambda link: _links_below(robot, link.name))
         for link in roots:
             if link is not main:
