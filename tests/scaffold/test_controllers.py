@@ -414,7 +414,7 @@ def test_gazebo_classic_passes_over_followers_so_they_are_told_too(place, capsys
     mirrored = ARM.replace(
         '<mimic joint="finger_joint"/>', '<mimic joint="finger_joint" multiplier="-1" offset="1.5"/>'
     )
-    bent = part("wrist", "elbow", more='<mimic joint="shoulder_joint"/>')
+    bent = part("wrist", "elbow", more='<mimic joint="shoulder_joint"/>').replace("0 0 0.1", "0.04 0 0.1")
     folder = robot(place, mirrored + bent, "catkin")
     assert new() == 0
     reported = capsys.readouterr().err
