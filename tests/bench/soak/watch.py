@@ -21,8 +21,8 @@ SUNK = 0.01
 """How far a robot or body may be below the floor [m]."""
 DEEP = 0.005
 """How deep a contact may be [m]."""
-FAST, GLANCES = 1.0, 10
-"""Speed [m/s] from which on ways are looked at so often in a look: what whips round a door's jamb takes no chord."""
+GLANCES = ((1.0, 10), (5.0, 50))
+"""Speeds [m/s] from which on ways are looked at so often in a look: what whips round a door's jamb takes no chord."""
 BEYOND_LIMIT = 1e-3
 """How far a joint may be beyond its limit [rad or m]."""
 OFF_UNIT = 1e-9
@@ -81,7 +81,7 @@ class Watch:
         moved = np.linalg.norm(now - self._before, axis=1) / LOOK
         self._speed = max(0.9 * self._speed, 1.0, 2.0 * float(moved[:links].max(initial=0.0)))
         self._before = now
-        self.glances = GLANCES if moved.max(initial=0.0) > FAST else 1
+        self.glances = max([number for speed, number in GLANCES if moved.max(initial=0.0) > speed], default=1)
         energy = 0.0
         for name, body in simulator.world.bodies.items():
             speed, its = _motion(body)

@@ -137,3 +137,21 @@ def test_thighs_that_jam_on_the_ground_do_not_sink(tmp_path: Path) -> None:
         simulator.run(0.02)
         deepest = max(deepest, *(contact.depth for contact in simulator.state.contacts), 0.0)
     assert deepest < 1e-4
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_a_held_robot_deep_in_the_ground_is_lifted_out(tmp_path: Path, seed: int) -> None:
+    """The quick correction needs ten times its weight, which its joints cannot bear; the slow one needs little."""
+    path = tmp_path / "humanoid.urdf"
+    path.write_text(humanoid(25))
+    simulator = Simulator(path)
+    random = np.random.default_rng(seed)
+    for name in simulator.kinematics.joint_names:
+        lower, upper = simulator.kinematics.limits(name)
+        simulator.motors.hold(name, 0.7 * random.uniform(lower, upper))
+    simulator.run(4.0)
+    pose = list(simulator.state.base_pose)
+    pose[2] -= 0.0105
+    simulator.world.place(simulator.name, pose)
+    simulator.run(3.0)
+    assert max(contact.depth for contact in simulator.state.contacts) < 0.0035

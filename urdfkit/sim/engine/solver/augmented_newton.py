@@ -38,14 +38,19 @@ HARDER, SOFTER = 5.0, 0.3
 """Factors of the penalty after a round that converged, and after a round that did not."""
 STEPS = 3
 """Most steps of Newton's method in a round."""
-RESTING, LEAVING, RELAXED, MOVING, BOUNDED = range(5)
-"""Attempts: with a hard penalty, the same without corrections of penetrations, also without slow returns of joints
+RESTING, LIFTING, LEAVING, RELAXED, MOVING, BOUNDED = range(6)
+"""Attempts: with a hard penalty, the same with one slow correction of all deep penetrations, which cannot contradict
+each other where they have one normal, without any corrections of penetrations, also without slow returns of joints
 beyond their limits, this with a soft penalty that grows, and with friction bounded by the normal impulses before each
 round. The rounds of the last one minimise convex functions, so they converge where friction jams a moving robot."""
+DEEP, LIFT = 0.003, 0.004
+"""Penetrations [m] from which on `LIFTING` is tried, and its correction [m/s], for which joints need the force."""
 LONGEST = 16
 """Most steps in which attempts that failed are skipped."""
 SLOW = 0.5
-"""Velocity [rad/s or m/s] of a dof below which `RELAXED` is tried; a robot that falls needs `MOVING` anyway."""
+"""Velocity [rad/s or m/s] of a dof below which `LIFTING` and `RELAXED` are tried: what falls needs `MOVING` anyway."""
+LIFT_TRY = 40
+"""Steps from which on `LIFTING` is given up; it may soften the penalty before."""
 FIRST_TRY, CONVERGES = 4, 0.1
 """Steps from which on the first try is given up, unless each round leaves less than this part of the one before."""
 TOTAL, MORE = 45, 30
@@ -59,8 +64,8 @@ SOLVED = 1e-10
 NEAR, GAIN = 1e-6, 0.7
 """The same where a round gains less than this factor over the one before, as where rows contradict each other."""
 QUICK = 0.01
-"""Factor that a round with a hard penalty gains over the one before, from which on the next has the same penalty: where
-rows do the same, it has the same factors."""
+"""Factor that a round with a hard penalty gains over the one before, from which on the next has the same penalty, as it
+has if the same gain again solves: where rows do the same, it has the same factors."""
 RETURN = 0.1
 """Velocity [rad/s or m/s] of a joint beyond its limit from which on it is always made to return."""
 MEMORY = 1.0 - 1e-6
@@ -223,10 +228,24 @@ def leave_violations(w: KernelWorld, first: int, beyond: int, fastest: float) ->
 
 
 @inlined
-def first_attempt(w: KernelWorld, tree: int, joint_rows: int, rows: int) -> int:
+def lift_out(w: KernelWorld, first: int, beyond: int, contacts: int) -> bool:
+    """Correct all penetrations at one slow speed at most, if any is deep; return whether one is."""
+    found = False
+    for i in range(contacts):
+        found = found or w.contact_gap[w.index[i]] < -DEEP
+    for k in range(first, beyond):
+        if found and w.row_bias[k] < -LIFT and w.high[k] == math.inf and w.low[k] == 0.0:
+            w.row_bias[k] = -LIFT
+    return found
+
+
+@inlined
+def first_attempt(w: KernelWorld, tree: int, joint_rows: int, rows: int, contacts: int) -> int:
     """Return the attempt that a step begins with: that of the last step if the ones before failed several times."""
     at = ATTEMPT * tree
     attempt = int(w.attempt[at + LAST_ATTEMPT]) if w.attempt[at + SKIPPED] > 0 else RESTING
+    if attempt == LIFTING and not lift_out(w, joint_rows, rows, contacts):
+        attempt = RESTING
     if attempt >= LEAVING:
         leave_violations(w, joint_rows, rows, math.inf)
     if attempt >= RELAXED:
@@ -235,16 +254,22 @@ def first_attempt(w: KernelWorld, tree: int, joint_rows: int, rows: int) -> int:
 
 
 @inlined
-def next_attempt(w: KernelWorld, tree: int, attempt: int, joint_rows: int, rows: int) -> int:
-    """Return the attempt that follows a failure, and leave out the corrections that it does not make."""
-    if attempt == RESTING and leave_violations(w, joint_rows, rows, math.inf):
-        return LEAVING
-    if not leave_violations(w, 0, joint_rows, RETURN):
-        return MOVING
-    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
+def is_slow(w: KernelWorld, tree: int) -> bool:
+    """Return whether all dofs of a tree are slow, so that attempts for robots at rest make sense."""
+    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):  # noqa: SIM110
         if not abs(w.v_start[d]) < SLOW:
-            return MOVING
-    return RELAXED
+            return False
+    return True
+
+
+@inlined
+def next_attempt(w: KernelWorld, tree: int, attempt: int, joint_rows: int, rows: int, contacts: int) -> int:
+    """Return the attempt that follows a failure, and leave out the corrections that it does not make."""
+    if attempt == RESTING and is_slow(w, tree) and lift_out(w, joint_rows, rows, contacts):
+        return LIFTING
+    if attempt < LEAVING and leave_violations(w, joint_rows, rows, math.inf):
+        return LEAVING
+    return RELAXED if leave_violations(w, 0, joint_rows, RETURN) and is_slow(w, tree) else MOVING
 
 
 @inlined
@@ -307,7 +332,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         w.sum_v[d] = w.v_start[d] + w.u[d]
     damped_inertia(w, tree, inertia)
     prepare(w, tree, stride, joint_rows, contacts, inertia)
-    attempt = first_try = first_attempt(w, tree, joint_rows, rows)
+    attempt = first_try = first_attempt(w, tree, joint_rows, rows, contacts)
     begin(w, tree, stride, rows, joint_rows, contacts, attempt)
     hardness, balance = SOFT if attempt == MOVING else HARD, BALANCE
     last_hardness = 0.0
@@ -326,10 +351,13 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         if taken >= 0 and (off <= (NEAR if bounded else SOLVED) or GAIN * before < off <= NEAR):
             met = balance == EXACT
             balance = EXACT
-        elif attempt < MOVING and (
-            taken < 0 or (attempt == RESTING and total >= FIRST_TRY and off > CONVERGES * before)
+        elif (attempt == LIFTING and total >= LIFT_TRY) or (
+            attempt < MOVING
+            and attempt != LIFTING
+            and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY and off > CONVERGES * before))
         ):
-            attempt = next_attempt(w, tree, attempt, joint_rows, rows)
+            total = 0 if attempt == LIFTING else total
+            attempt = next_attempt(w, tree, attempt, joint_rows, rows, contacts)
             hardness = SOFT if attempt == MOVING else HARD
             begin(w, tree, stride, rows, joint_rows, contacts, attempt)
             off = math.inf
@@ -339,7 +367,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
             off = math.inf
         elif taken < 0:
             hardness = max(SOFTEST, SOFTER * hardness)
-        elif attempt >= MOVING or (attempt != RESTING and off > QUICK * before):
+        elif attempt >= MOVING or (attempt != RESTING and off > QUICK * before and off * off > SOLVED * before):
             hardness = min(HARDEST, HARDER * hardness)
         before = off
     remember_attempt(w, tree, first_try, attempt)
