@@ -121,6 +121,11 @@ def parameters_of(node: str) -> tuple[str, ...]:
     return _parameters().get(node, ())
 
 
+def parameters_of_package(package: str) -> tuple[str, ...]:
+    """Return parameters of the nodes of a well-known package; empty for other packages."""
+    return _parameters(_OF_PACKAGES).get(package, ())
+
+
 def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str | None]]:
     """Yield the unknown parameters of well-known nodes in a launch file: key, package, suggested name or None."""
     is_ros1 = source.file.endswith((".launch", ".xml")) and reads_ros1(source)

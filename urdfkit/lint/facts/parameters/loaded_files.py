@@ -43,7 +43,7 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         file = attributes.get("file")
         if tag.name != "rosparam" or file is None or _is_command(tag):
             continue
-        parameters = _read(file.value, model)
+        parameters = parameters_at(file.value, model)
         if parameters is None:
             continue
         text, name = uncommented(parameters), Path(parameters.file).name
@@ -156,7 +156,7 @@ def controllers_without_manager(source: Source, model: Model) -> Defects:
         return
     for tag in _tags(source) if "move_group" in source.text else ():
         file = tag.attributes.get("file") if tag.name == "rosparam" and not _is_command(tag) else None
-        parameters = _read(file.value, model) if file is not None else None
+        parameters = parameters_at(file.value, model) if file is not None else None
         if file is not None and parameters is not None and "controller_list:" in uncommented(parameters):
             name = Path(parameters.file).name
             yield file, f"no launch file sets `moveit_controller_manager`, so MoveIt does not read {name}"
@@ -184,7 +184,7 @@ def _replaced_by_others(model: Model) -> Iterator[str]:
     """Yield the ends of the namespaces of MoveIt into which launch files load a wrong file, which is reported there."""
     for tag in (tag for file in ros1_files(model) for tag in _tags(file)):
         file = tag.attributes.get("file") if tag.name == "rosparam" and not _is_command(tag) else None
-        parameters = _read(file.value, model) if file is not None else None
+        parameters = parameters_at(file.value, model) if file is not None else None
         if parameters is not None and (end := _replaced(uncommented(parameters), _namespace(tag))) is not None:
             yield end
 
@@ -283,7 +283,7 @@ def _namespace(tag: Tag) -> str:
     return re.sub(r"\$\(arg robot_description\)", "robot_description", "/".join(reversed(parts))).strip("/")
 
 
-def _read(path: str, model: Model) -> Source | None:
+def parameters_at(path: str, model: Model) -> Source | None:
     """Return a parameter file of a package of the workspace; None for other files."""
     package, inner = share_of(path)
     folder = neighbours(model.package).get(package) if model.package is not None else None

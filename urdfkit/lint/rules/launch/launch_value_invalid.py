@@ -44,6 +44,7 @@ class LaunchValueInvalid(RobotRule):
     - unknown plugins of MoveIt and of navigation, and plugins of the other version of ROS
     - parameter files with substitutions but without ``subst_value``, files that are loaded into the wrong namespace or
       parameter, and MoveIt files that no launch file loads
+    - parameters inside of a node that reads them from another namespace in Python, and private parameters outside of it
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
     - planning pipelines in another namespace than that of the node ``move_group``
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
@@ -87,6 +88,7 @@ class LaunchValueInvalid(RobotRule):
             unread_semantics,
             untimed_pipelines,
         )
+        from urdfkit.lint.facts.parameters.private_parameters import parameters_out_of_reach
 
         for name, source in model.related_files.items():
             if not name.endswith((".launch", ".launch.xml", "_launch.xml")):
@@ -111,6 +113,7 @@ class LaunchValueInvalid(RobotRule):
                 *unread_semantics(source, model),
                 *untimed_pipelines(source),
                 *pipelines_elsewhere(source),
+                *(parameters_out_of_reach(source, model) if version == 1 else ()),
             )
             for attribute, message in found_in_files if version == 1 else ():
                 span = source.span(attribute.value_start, attribute.value_end)

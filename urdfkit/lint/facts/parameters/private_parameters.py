@@ -1,0 +1,177 @@
+"""Parameters of ROS 1 launch files in the namespace of a node that reads them elsewhere, and the reverse.
+
+Sources: roslaunch (a parameter inside of a node is private: ``/node/name``) and rospy (names.py: ``~name`` is private,
+``/name`` is global, and ``name`` is in the namespace of the node).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.packages.related_files import neighbours
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import documents
+from urdfkit.lint.facts.launch.node_parameters import parameters_of_package
+from urdfkit.lint.facts.launch.spawned_controllers import namespace_of, ros1_files, tags
+from urdfkit.lint.facts.parameters.loaded_files import parameters_at
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Attribute, Tag
+from urdfkit.lint.project.code_files import node_texts
+from urdfkit.record import record
+
+_READ = r"\brospy\.(?:get_param|get_param_cached|has_param)\s*\(\s*[\"']([~/]?)(\w+)[\"']"
+_COMPUTED = (
+    r"\b(?:get_param|get_param_cached|has_param)\s*\(\s*(?![\"'])|[\"']~?/?[\"']\s*[+%]|search_param|[\"']~[\"']"
+)
+"""Matches code that reads parameters with computed names."""
+
+_SHARED = ("robot_description", "robot_name", "tf_prefix", "use_sim_time")
+"""Parameters that many nodes read from the global namespace."""
+
+_PRIVATE = ("amcl", "gmapping")
+"""Packages outside of the workspace whose nodes read private parameters only."""
+
+
+@record(eq=False)
+class _SetParameters:
+    """Parameters that an element sets.
+
+    Attributes:
+        attribute: attribute with the name of the parameter, or with a file.
+        names: names of the parameters; None if they are unknown.
+        node: node around the element; None outside of nodes.
+        space: namespace of the element; None if it is computed.
+    """
+
+    attribute: Attribute
+    names: frozenset[str] | None
+    node: Tag | None
+    space: str | None
+
+    def misplaced(self, word: str) -> str:
+        """Return the end of a message: the wrong namespace, and the place for the element."""
+        short = self.attribute.value.rpartition("/")[2]
+        is_file = self.attribute.name == "file"
+        what, verb = (f"{short} is loaded into", "load") if is_file else ("this parameter is in", "write")
+        own = self.node.attributes["name"].value if self.node is not None else ""
+        return f"but {what} `/{f'{self.space}/{own}'.strip('/')}`; {verb} it {word} of the node"
+
+
+@record(eq=False)
+class _ParameterReader:
+    """A node with the names of its private parameters, and of the other parameters that it reads, as its code does."""
+
+    node: Tag
+    name: str
+    space: str | None
+    private: frozenset[str]
+    public: dict[str, str]
+
+
+def parameters_out_of_reach(source: Source, model: Model) -> Iterator[tuple[Attribute, str]]:
+    """Yield the parameters and files of a ROS 1 launch file that their node reads from another namespace."""
+    written, texts = list(_written(source, model)), _texts(model)
+    yield from _repeated_names(written, texts)
+    readers = list(_readers(source, texts))
+    outside = [each for file in ros1_files(model) if readers for each in _written(file, model) if each.node is None]
+    for each in (one for one in written if one.names):
+        found = (_misplaced(each, reader, written, outside, texts) for reader in readers)
+        message = next((one for one in found if one is not None), None)
+        if message is not None:
+            yield each.attribute, message
+
+
+def _misplaced(
+    each: _SetParameters,
+    reader: _ParameterReader,
+    written: list[_SetParameters],
+    outside: list[_SetParameters],
+    texts: list[tuple[str, str, str]],
+) -> str | None:
+    """Return the message for parameters that a node reads, but not where an element sets them; None for others."""
+    names = each.names or frozenset()
+    if _is_same(each.node, reader.node):
+        lost = sorted(names & reader.public.keys())
+        is_set = any(one.names is None or one.names & {*lost} for one in outside)
+        if not lost or is_set or names & reader.private:
+            return None
+        return f"node `{reader.name}` reads `{reader.public[lost[0]]}`, {each.misplaced('outside')}"
+    own = [one.names for one in written if _is_same(one.node, reader.node)]
+    if each.node is not None or each.space is None or each.space != reader.space or None in own:
+        return None
+    lost = sorted((names & reader.private) - {*_SHARED}.union(*(one for one in own if one is not None)))
+    if not lost or any(re.search(rf"[\"']/?{re.escape(name)}[\"']", text) for name in names for _, _, text in texts):
+        return None
+    return f"node `{reader.name}` reads its private parameter `{lost[0]}`, {each.misplaced('inside')}"
+
+
+def _is_same(one: Tag | None, other: Tag) -> bool:
+    return one is not None and one.start == other.start
+
+
+def _repeated_names(
+    written: list[_SetParameters], texts: list[tuple[str, str, str]]
+) -> Iterator[tuple[Attribute, str]]:
+    """Yield the files whose only section has the name of the node that loads them into its own namespace."""
+    for each in written:
+        name = each.node.attributes["name"].value if each.node is not None and "name" in each.node.attributes else ""
+        is_file = each.attribute.name == "file"
+        if not (is_file and name and each.names == frozenset((name,))):
+            continue
+        is_read = rf"[\"']~?{re.escape(name)}/|_param\w*\s*\(\s*[\"']~?{re.escape(name)}[\"']"
+        if not any(re.search(is_read, text) for _, _, text in texts):
+            short = each.attribute.value.rpartition("/")[2]
+            message = f"the only section of {short} is `{name}`, so its parameters are in `/{name}/{name}`"
+            yield each.attribute, f"{message}; load it outside of the node"
+
+
+def _written(source: Source, model: Model) -> Iterator[_SetParameters]:
+    for _, tag in (*tags([source], "param"), *tags([source], "rosparam")):
+        at = tag.attributes
+        node = next((each for each in tag.ancestors() if each.name == "node"), None)
+        attribute = at.get("name" if tag.name == "param" else "file")
+        names: frozenset[str] | None = None
+        if attribute is None or ("command" in at and at["command"].value != "load"):
+            continue
+        if tag.name == "param" and re.fullmatch(r"\w+", attribute.value):
+            names = frozenset((attribute.value,))
+        elif tag.name == "rosparam" and not {"ns", "param"} & at.keys():
+            parameters = parameters_at(attribute.value, model)
+            roots = documents(parameters) if parameters is not None else ()
+            names = frozenset(key.text for root in roots for key, _ in root.entries) if roots else None
+        if names is not None or tag.name == "rosparam":
+            yield _SetParameters(attribute, names, node, namespace_of(tag))
+
+
+def _readers(source: Source, texts: list[tuple[str, str, str]]) -> Iterator[_ParameterReader]:
+    for _, tag in tags([source], "node"):
+        at = tag.attributes
+        if not {"pkg", "type", "name"} <= at.keys() or "$" in at["name"].value or _has_inner(tag):
+            continue
+        package, program = at["pkg"].value, at["type"].value.removesuffix(".py")
+        own = [text for name, stem, text in texts if (name, stem) == (package, program)]
+        private, public = frozenset[str](), dict[str, str]()
+        if package in _PRIVATE and package == program.removeprefix("slam_"):
+            private = frozenset(parameters_of_package(package))
+        elif len(own) == 1 and "rospy" in own[0] and not re.search(_COMPUTED, own[0]):
+            read = re.findall(_READ, own[0])
+            private = frozenset(name for kind, name in read if kind == "~")
+            public = {name: f"{kind}{name}" for kind, name in read if kind != "~" and name not in private}
+        remaps = [each.attributes for each in tag.children if each.name == "remap"]
+        words = {value.value.strip("~/") for remap in remaps for value in remap.values()}
+        words.update(re.findall(r"(?:^|\s)_(\w+):=", at["args"].value) if "args" in at else ())
+        private, public = private - words, {name: text for name, text in public.items() if name not in words}
+        if private or public:
+            yield _ParameterReader(tag, at["name"].value, namespace_of(tag), private, public)
+
+
+def _has_inner(node: Tag) -> bool:
+    """Return whether a node has parameters in the text of its elements."""
+    return any(each.name == "rosparam" and "file" not in each.attributes for each in node.children)
+
+
+def _texts(model: Model) -> list[tuple[str, str, str]]:
+    """Return package, name without its ending, and text of each file with code in the workspace."""
+    folders = neighbours(model.package) if model.package is not None else {}
+    return [(name, path.stem, text) for name, folder in folders.items() for path, text in node_texts(folder)]
