@@ -114,8 +114,8 @@ def test_a_urdf_without_xacro_gets_plain_elements(place):
     path = place / "base.urdf"
     path.write_text(
         '<robot name="base">\n  <link name="base_link">\n    <inertial><mass value="20"/><inertia ixx="0.483" ixy="0" '
-        'ixz="0" iyy="0.483" iyz="0" izz="0.833"/></inertial>\n    <collision><geometry><box size="0.5 0.5 0.2"/></geometry>'
-        "</collision>\n  </link>\n</robot>\n"
+        'ixz="0" iyy="0.483" iyz="0" izz="0.833"/></inertial>\n    '
+        '<collision><geometry><box size="0.5 0.5 0.2"/></geometry></collision>\n  </link>\n</robot>\n'
     )
     assert new(into="base.urdf") == 0
     assert list(place.iterdir()) == [path]
