@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.errors import similar
 
 LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml", "_launch.xml", "_launch.py", "_launch.yaml")
@@ -40,6 +41,7 @@ _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 """First bytes of a text in UTF-16."""
 
 
+@kept
 def manifest(package: Path) -> str:
     """Return the package.xml of a package, without comments; empty if it cannot be read."""
     file = package / "package.xml"
@@ -68,6 +70,11 @@ def dependencies_in(text: str) -> set[str]:
 
 def neighbours(package: Path) -> dict[str, Path]:
     """Return the packages in the same folder, itself included, by name."""
+    return dict(_neighbours(package))
+
+
+@kept
+def _neighbours(package: Path) -> dict[str, Path]:
     found: dict[str, Path] = {}
     try:
         folders = sorted(child.path for child in os.scandir(package.parent) if child.is_dir(follow_symlinks=False))

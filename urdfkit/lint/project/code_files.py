@@ -5,6 +5,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.description.packages.related_files import LAUNCH
 
 CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
@@ -29,17 +30,32 @@ def code_texts(folder: Path, endings: tuple[str, ...], without: tuple[str, ...] 
         endings: endings of the names of files.
         without: endings of the names of files that are ignored.
     """
+    for place, names in _names(folder):
+        for name in names:
+            if name.endswith(endings) and not name.endswith(without):
+                path = Path(place, name)
+                if (text := _text(path)) is not None:
+                    yield path, text
+
+
+@kept
+def _names(folder: Path) -> list[tuple[str, list[str]]]:
+    """Return a folder and those in it, each with the names of its files."""
+    found = []
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        for name in sorted(files):
-            path = Path(place, name)
-            if not name.endswith(endings) or name.endswith(without) or path.is_symlink() or not path.is_file():
-                continue
-            try:
-                if path.stat().st_size <= MAX_BYTES:
-                    yield path, path.read_text("utf-8", "replace")
-            except OSError:
-                continue
+        found.append((place, sorted(files)))
+    return found
+
+
+@kept
+def _text(path: Path) -> str | None:
+    """Return the text of a file; None for symbolic links, large files and files that cannot be read."""
+    try:
+        is_read = not path.is_symlink() and path.is_file() and path.stat().st_size <= MAX_BYTES
+        return path.read_text("utf-8", "replace") if is_read else None
+    except OSError:
+        return None
 
 
 def python_tree(text: str) -> ast.Module | None:
