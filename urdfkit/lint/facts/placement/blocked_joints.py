@@ -36,6 +36,9 @@ _POINTS = (-1.0, -0.5, 0.0, 0.5, 1.0)
 _DEEP = 0.1
 """Smallest depth of such a point in another shape, as a part of half the smallest size of that shape."""
 
+_ROUNDING = 1.0 + 1e-9
+"""Factor of distances that rounding errors do not exceed."""
+
 _GROUND = 0.02
 """Depth below the lowest point of the robot at zero that is in the ground [m]."""
 
@@ -113,18 +116,25 @@ def _movement(joint: Joint, pivot: Vector, axis: Vector) -> Callable[[float], Mo
 
 def _met(points: list[Vector], rest: list[Solid], ground: float) -> Callable[[Movement], str | None]:
     """Return a function: the link that the points enter by a movement; empty for the ground, None for none."""
-    reaches = [(solid, diagonal(solid.shape) / 2.0, solid.at.translation) for solid in rest]
+    every = [(solid, diagonal(solid.shape) / 2.0, solid.at.translation) for solid in rest]
 
-    def around(point: Vector) -> str | None:
-        for solid, reach, centre in reaches:
+    def around(point: Vector, solids: list[tuple[Solid, float, Vector]]) -> str | None:
+        for solid, reach, centre in solids:
             if dist(point, centre) < reach and solid.depth(point) > _DEEP * solid.thickness:
                 return solid.link.name
         return "" if point[2] < ground else None
 
-    free = [point for point in points if around(point) is None]
+    free = [point for point in points if around(point, every) is None]
+    x, y, z = (sum(part) / len(points) for part in zip(*points, strict=True))
+    middle = x, y, z
+    radius = max((dist(middle, point) for point in free), default=0.0)
 
     def met(move: Movement) -> str | None:
-        names = (around(move(point)) for point in free)
+        at = move(middle)
+        near = [each for each in every if dist(at, each[2]) < (each[1] + radius) * _ROUNDING]
+        if not near and ground == -inf:
+            return None
+        names = (around(move(point), near) for point in free)
         return next((name for name in names if name is not None), None)
 
     return met
