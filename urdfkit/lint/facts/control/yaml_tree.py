@@ -41,7 +41,10 @@ class Node:
 
     def find(self, name: str) -> Node | None:
         """Return the value of a key in a mapping; None if the key is missing."""
-        return next((value for key, value in self.entries if key.text == name), None)
+        for key, value in self.entries:
+            if key.text == name:
+                return value
+        return None
 
     @property
     def last_name(self) -> str:
@@ -95,10 +98,14 @@ def syntax_error(source: Source) -> Broken | None:
     return documents_in(source.text)[1]
 
 
-def nodes(source: Source) -> Iterator[Node]:
-    """Yield every node of every document of a YAML file that is read as a value."""
-    for document in documents(source):
-        yield from walk(document)
+def nodes(source: Source) -> tuple[Node, ...]:
+    """Return every node of every document of a YAML file that is read as a value."""
+    return _nodes_in(source.text)
+
+
+@lru_cache(maxsize=100)
+def _nodes_in(text: str) -> tuple[Node, ...]:
+    return tuple(node for document in documents_in(text)[0] for node in walk(document))
 
 
 def start_of(source: Source, node: Node) -> int:

@@ -12,7 +12,8 @@ COSTMAPS = ("local_costmap", "global_costmap")
 
 def sections(source: Source) -> Iterator[tuple[Node, Node]]:
     """Yield the names of ROS 2 nodes in a YAML file with their parameters; namespaces are passed over."""
-    waiting = [(entry, 0) for root in documents(source) for entry in root.entries]
+    roots = documents(source) if PARAMETERS in source.text else ()
+    waiting = [(entry, 0) for root in roots for entry in root.entries]
     while waiting:
         (key, value), depth = waiting.pop(0)
         group = value.find(PARAMETERS)

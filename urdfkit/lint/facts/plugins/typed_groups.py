@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
-from functools import cache
+from functools import cache, lru_cache
 
 from urdfkit.defect_message import Suggestion
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, number_of
+from urdfkit.lint.facts.control.yaml_tree import Node, documents_in, nodes, number_of
 from urdfkit.lint.facts.parameters.misspelt_names import is_misspelt
 from urdfkit.lint.facts.parameters.node_parameters import parameters, type_problem
 from urdfkit.lint.facts.parameters.schemas import rows_of, schemas
@@ -50,10 +50,16 @@ def names_of_plugins() -> set[str]:
     }
 
 
-def typed_groups(source: Source) -> Iterator[tuple[str, Node, Rows]]:
-    """Yield the groups of a YAML file with parameters of a plugin, controller or node in the tables: kind and types."""
-    is_ros2 = PARAMETERS in source.text
-    waiting = [("", root, 0) for root in documents(source)]
+def typed_groups(source: Source) -> tuple[tuple[str, Node, Rows], ...]:
+    """Return kind, group and types of each section of a plugin, controller or node in the tables."""
+    return _typed_groups_in(source.text)
+
+
+@lru_cache(maxsize=100)
+def _typed_groups_in(text: str) -> tuple[tuple[str, Node, Rows], ...]:
+    is_ros2 = PARAMETERS in text
+    found: list[tuple[str, Node, Rows]] = []
+    waiting = [("", root, 0) for root in documents_in(text)[0]]
     types: dict[str, str] = {}
     while waiting:
         name, node, depth = waiting.pop(0)
@@ -61,13 +67,14 @@ def typed_groups(source: Source) -> Iterator[tuple[str, Node, Rows]]:
             continue
         kind = _kind(name, node, is_ros2, types)
         if kind:
-            yield kind, node, _tables(is_ros2)[kind]
+            found.append((kind, node, _tables(is_ros2)[kind]))
         for key, value in node.entries:
             plugin = value.find("type")
             if plugin is not None and "/" in plugin.text:
                 types[key.text] = plugin.class_name
             inner = value.find(PARAMETERS)
             waiting.append((key.last_name, inner if inner is not None else value, depth + 1))
+    return tuple(found)
 
 
 def _kind(name: str, node: Node, is_ros2: bool, types: dict[str, str]) -> str:

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -89,22 +90,25 @@ def _is_fragment(file: Path) -> bool:
 
 def _texts(model: Model) -> dict[Path, str]:
     """Return the texts of the package and its neighbours that may name a fragment."""
+    sources = model.expanded.sources.items()
+    own = {Path(file).absolute(): _uncommented(source.text) for file, source in sources}
+    return {**(_texts_near(model.package) if model.package is not None else {}), **own}
+
+
+@kept
+def _texts_near(package: Path) -> dict[Path, str]:
     from urdfkit.description.packages.related_files import neighbours
     from urdfkit.lint.project.code_files import code_texts
 
-    folders = neighbours(model.package).values() if model.package is not None else ()
-    found = {
-        path.absolute(): re.sub(r"(?s)<!--.*?-->", "", text)
-        for folder in folders
+    return {
+        path.absolute(): _uncommented(text)
+        for folder in neighbours(package).values()
         for path, text in code_texts(folder, _OTHERS)
     }
-    found.update(
-        {
-            Path(file).absolute(): re.sub(r"(?s)<!--.*?-->", "", source.text)
-            for file, source in model.expanded.sources.items()
-        }
-    )
-    return found
+
+
+def _uncommented(text: str) -> str:
+    return re.sub(r"(?s)<!--.*?-->", "", text) if "<!--" in text else text
 
 
 def _include_of(folder: Path, model: Model) -> tuple[Source, int] | None:

@@ -1,6 +1,15 @@
 """K981 parameter-out-of-range."""
 
+from __future__ import annotations
+
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.yaml_tree import Node
 
 
 class ParameterOutOfRange(RobotRule):
@@ -35,9 +44,9 @@ class ParameterOutOfRange(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import nodes, span_of, yamls
         from urdfkit.lint.facts.parameters.ranges import groups_of_launch, out_of_range
 
-        groups = [(source, nodes(source)) for source in yamls(model)]
+        groups: list[tuple[Source, Iterable[Node]]] = [(source, nodes(source)) for source in yamls(model)]
         launches = [each for name, each in model.related_files.items() if name.endswith(LAUNCH)]
-        groups += [(each, iter(groups_of_launch(each))) for each in launches if not each.file.endswith(".py")]
+        groups += [(each, groups_of_launch(each)) for each in launches if not each.file.endswith(".py")]
         for source, found in groups:
             for node, message in out_of_range(found):
                 yield self.at_span(span_of(source, node), message)
