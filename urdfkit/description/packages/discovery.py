@@ -81,8 +81,6 @@ def package_name(folder: Path) -> str | None:
 
 def share_folders(prefix: Path) -> list[Path]:
     """Return the share folders of an install prefix, merged or isolated (colcon)."""
-    if not prefix.is_dir():
-        return []
     try:
         isolated = [child / "share" for child in sorted(prefix.iterdir()) if (child / "share").is_dir()]
     except OSError:

@@ -215,7 +215,7 @@ def _cause(inner: Solid, outer: Solid, joints: list[Joint], model: Model) -> tup
     axis = max(range(3), key=lambda k: abs(offset[k]))
     x, y, z = (-part if k == axis else part for k, part in enumerate(offset))
     origin = shapes_of(inner.link)[0].element.find("origin")
-    if origin is not None and any(offset):
+    if origin is not None:
         mirrored = frame.moved(Pose((x, y, z), inner.pose.rpy)).translation
         if not _is_inside(inner, mirrored, outer) and abs(offset[axis]) > half_sizes(inner.shape)[axis]:
             return joints[0], origin

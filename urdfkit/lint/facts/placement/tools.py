@@ -49,7 +49,7 @@ def tools_behind(model: Model) -> Iterator[tuple[Joint, bool]]:
         frame, fingers = model.robot.link_by_name.get(joint.child or ""), list(_fingers(joint.parent or "", model))
         if joint.type != "fixed" or frame is None or shapes_of(frame) or not fingers:
             continue
-        x, y, z = (sum(finger.origin.xyz[k] for finger in fingers) / len(fingers) for k in range(3))
+        x, y, z = (sum(finger.origin.xyz[k] for finger in fingers) for k in range(3))
         direction, offset = unit((x, y, z)), unit(joint.origin.xyz)
         if direction is None or offset is None or not _TOOL.search(f"{joint.name} {frame.name}"):
             continue

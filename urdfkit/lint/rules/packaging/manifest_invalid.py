@@ -76,7 +76,7 @@ class ManifestInvalid(RobotRule):
                 suggestion = misspelling_of(text, near, 2 if is_ros2 else 0)
                 if suggestion is not None:
                     message = f"unknown dependency `{text}`" + Suggestion(suggestion, text)
-                    is_slip = misspelling_of(text, near, 0) is not None
+                    is_slip = misspelling_of(text, near) is not None
                     yield self._at(files, tag, message, "warning", kind="" if is_slip else "dependency")
                 elif tag.name != "buildtool_depend" and not tag.attributes and (other := _other_ros(text, files)):
                     message = f"`{text}` is a package of {other}, but `{files.build_tool}` builds this package"

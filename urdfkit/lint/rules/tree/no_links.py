@@ -27,7 +27,7 @@ class NoLinks(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding at the root element of a robot without links."""
         robot = model.robot
-        if robot.links or model.expanded.faults or not str(model.expanded.path).lower().endswith(".urdf"):
+        if model.expanded.faults or not str(model.expanded.path).lower().endswith(".urdf"):
             return
         # A misspelt link has its own finding, and gazebo extensions alone are a fragment.
         if not robot.element.children and not any("xacro" in one.text for one in model.expanded.sources.values()):
