@@ -129,6 +129,8 @@ def test_each_format_of_ros2(name: str, text: str, package: Package) -> None:
         ('zip("a", "x")', {}),
         ('{"a": "x" + "_" + tool}', {"a": "x_gripper"}),
         ('{"a": f"x_{tool}"}', {"a": "x_gripper"}),
+        ('{"a": f"x_{tool!s}"}', {"a": "x_gripper"}),
+        ('{"a": f"x_{tool!r}", "b": f"{tool:>9}", "c": "y"}', {"c": "y"}),
         ('{"a": str(tool)}', {"a": "gripper"}),
         ('{"a": ["x_", tool]}', {"a": "x_gripper"}),
         ('{"a": TextSubstitution(text="x")}', {"a": "x"}),

@@ -81,7 +81,7 @@ class LaunchReader:
             return self.text(value, depth + 1)
         if isinstance(node, ast.JoinedStr) and depth < 8:
             pieces = [each.value if isinstance(each, ast.FormattedValue) else each for each in node.values]
-            is_plain = all(not isinstance(each, ast.FormattedValue) or _is_plain(each) for each in node.values)
+            is_plain = all(not isinstance(each, ast.FormattedValue) or inserts_text(each) for each in node.values)
             texts = [self.text(each, depth + 1) for each in pieces] if is_plain else [None]
             return "".join(text for text in texts if text is not None) if None not in texts else None
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add) and depth < 8:
@@ -180,6 +180,6 @@ def unparsed(node: ast.AST) -> str:
         return ""
 
 
-def _is_plain(value: ast.FormattedValue) -> bool:
+def inserts_text(value: ast.FormattedValue) -> bool:
     """Return whether an f-string inserts a text as it is."""
-    return value.conversion in (-1, 115) and value.format_spec is None
+    return value.conversion in (-1, ord("s")) and value.format_spec is None

@@ -14,7 +14,7 @@ from urdfkit.description.launch.launch_scope import (
     is_false,
     is_true,
 )
-from urdfkit.description.launch.python_constants import JOINS, SHARE, launch_reader, name_of
+from urdfkit.description.launch.python_constants import JOINS, SHARE, inserts_text, launch_reader, name_of
 
 _MAX_STEPS = 50_000
 _NODES = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
@@ -179,7 +179,7 @@ class _PythonLaunch:
         if isinstance(node, ast.JoinedStr):
             return "".join(self._text(part) for part in node.values)
         if isinstance(node, ast.FormattedValue):
-            return self._text(node.value) if node.conversion == -1 and node.format_spec is None else UNKNOWN
+            return self._text(node.value) if inserts_text(node) else UNKNOWN
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
             return self._text(node.left) + self._text(node.right)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
