@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -174,8 +175,6 @@ def test_a_chain_longer_than_the_recursion_limit(robot_of: Callable[[str], Robot
 
 
 def test_two_roots_are_named(arm: Robot) -> None:
-    from dataclasses import replace
-
     broken = replace(arm, joints=arm.joints[:-1])  # type: ignore[type-var]
     with pytest.raises(
         KinematicsError, match=r"`arm` does not form a single tree of links; its roots: `world`, `camera_optical`"
@@ -186,6 +185,14 @@ def test_two_roots_are_named(arm: Robot) -> None:
 def test_a_zero_axis_is_refused_at_its_place(pair: Callable[..., Robot]) -> None:
     with pytest.raises(UrdfkitError, match=r"robot\.urdf:1:\d+: .*axis"):
         Kinematics(pair("continuous", '<axis xyz="0 0 0"/>'))
+
+
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 0.0), (1e200, 0.0, 0.0)])
+def test_axes_that_a_program_sets_are_checked_too(pair: Callable[..., Robot], axis: tuple[float, float, float]) -> None:
+    written = pair("continuous")
+    broken = replace(written, joints=(replace(written.joints[0], axis=axis),))  # type: ignore[type-var]
+    with pytest.raises(KinematicsError, match=r"robot\.urdf:1:\d+: joint `j` has the axis .*; it must not be zero"):
+        Kinematics(broken)
 
 
 @pytest.mark.slow

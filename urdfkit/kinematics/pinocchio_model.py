@@ -105,11 +105,10 @@ def joint_model(joint: Joint) -> tuple[Any, Any]:
     if joint.type == "floating":
         return pin.JointModelFreeFlyer(), identity
     axis = np.array(joint.axis, dtype=float)
-    length = vector_norm(axis)
-    if not np.isfinite(length) or length == 0.0:
+    if not joint.has_axis:
         message = f"joint `{joint.name}` has the axis {axis[0]:g} {axis[1]:g} {axis[2]:g}; it must not be zero"
         raise KinematicsError(message, position=joint.element.origin.position)
-    axis /= length
+    axis /= vector_norm(axis)
     if joint.type == "planar":
         turn = pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis)
         return pin.JointModelPlanar(), pin.SE3(turn.matrix(), np.zeros(3))
