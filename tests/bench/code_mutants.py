@@ -110,7 +110,7 @@ def mutants(file: str, source: bytes) -> Iterator[Mutant]:
     for node in code_nodes(ast.parse(source)):
         match node:
             case ast.Compare(left, [operator], [right]) if type(operator) in COMPARISONS:
-                yield change(node, f"({text(left)} {COMPARISONS[type(operator)]} {text(right)})")
+                yield change(node, f"(({text(left)}) {COMPARISONS[type(operator)]} ({text(right)}))")
             case ast.BinOp(left, operator, right) if type(operator) in OPERATORS:
                 yield change(node, f"(({text(left)}) {OPERATORS[type(operator)]} ({text(right)}))")
             case ast.BoolOp(operator, values):
