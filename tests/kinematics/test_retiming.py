@@ -39,6 +39,9 @@ def test_motions_pass_all_waypoints_within_the_limits(count, jerk):
     assert (np.abs(accelerations) <= limits.acceleration * (1 + 1e-3)).all()
     if jerk is not None:
         assert (np.abs(np.diff(accelerations, axis=0) / steps[2:]) <= jerk * 1.01).all()
+    # The stated accelerations are the slopes of the velocities, except where they jump.
+    slopes = np.gradient(motion.velocity, motion.time, axis=0)
+    assert np.quantile(np.abs(slopes - motion.acceleration), 0.9) < 0.01
     # It is as fast as the limits allow: one of them is nearly reached.
     used = np.max(np.abs(motion.acceleration) / limits.acceleration), np.max(np.abs(motion.velocity) / limits.velocity)
     assert max(used) > 0.98

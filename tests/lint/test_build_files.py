@@ -420,6 +420,11 @@ target_link_libraries(core_test stdc++)
         ("(drive src", "(${PROJECT_NAME}_drive src", ["4: the other commands call this target `drive`"]),
         ("(drive src", "(driver src", ["4: the other commands call this target `drive`"]),
         ("libraries(drive", "libraries(driver", ["5: no command defines the target `driver`; did you mean `drive`?"]),
+        (
+            "drive DESTINATION",
+            "drive RUNTIM DESTINATION",
+            ["6: unknown argument `RUNTIM` of install(); did you mean `RUNTIME`?"],
+        ),
         ("TARGETS drive", "TARGETS driver", ["6: no command defines the target `driver`; did you mean `drive`?"]),
         ("src/drive.cpp", "src/driver.cpp", ["4: `src/driver.cpp` does not exist in this package"]),
         ("src/drive.cpp", "source/drive.cpp", []),

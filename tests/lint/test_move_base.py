@@ -69,6 +69,7 @@ def findings(folder, name="", old="", new=""):
 
 def test_correct_parameters_are_silent(tmp_path):
     assert findings(tmp_path) == []
+    assert findings(tmp_path, "teb.yaml", BAND[BAND.index("polygon") : BAND.index("  min")], "point\n") == []
 
 
 @pytest.mark.parametrize(("name", "old", "new", "line", "message"), MISTAKES)

@@ -41,6 +41,7 @@ SIMULATED = (
     '<include file="$(find a)/b"/></group><param name="use_sim_time" value="{}"/>'
 )
 MAPPING = '<node pkg="gmapping" type="slam_gmapping" name="m"><param name="base_frame" value="{}"/></node>'
+TO_TOOL = STATIC.format("base_link tool")
 BOTH = "`respawn` and `required` are both true, which roslaunch refuses; remove one"
 FILTER = '<node pkg="robot_localization" exec="ekf_node" name="ekf"><remap from="{}/></node>'
 CASES = [
@@ -50,6 +51,7 @@ CASES = [
     (1, SPAWN, "sdf", "urdf", "`robot_description` is a URDF; did you mean `-urdf`?"),
     (1, SIMULATED, "false", "true", "`use_sim_time` is false, but this file starts Gazebo"),
     (1, MAPPING, "footprint", "base_link", "has no link `footprint`, the frame of this node"),
+    (1, MAPPING + TO_TOOL, "footprint", "tool", "has no link `footprint`, the frame of this node"),
     (2, FILTER, 'odom" to="odometry/filtered"', 'odometry/filtered" to="odom"', "`ekf_node` has no topic `odom`"),
     (1, PLANNER, "ompl_interface/OMPLPlannerPlugin", "ompl_interface/OMPLPlanner", "has no plugin `OMPLPlannerPlugin`"),
     (1, BASE, "nav2_navfn_planner/NavfnPlanner", "navfn/NavfnROS", "ROS 1; did you mean `navfn/NavfnROS`?"),

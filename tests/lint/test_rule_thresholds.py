@@ -105,6 +105,17 @@ MESH = '<visual><geometry><mesh filename="plate.obj" scale="@"/></geometry></vis
 PLATE = "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n"
 """A mesh of 3 m by 4 m, thus of 5 m."""
 
+UNKNOWN_SIZES = (
+    link(MESH.replace("plate.obj", "missing.obj"), name="base")
+    + joint('<origin xyz="0 0 12"/>', type="fixed")
+    + joint('<origin xyz="@"/>', type="fixed", parent="arm", child="hand")
+)
+FOLLOWER = joint('<limit lower="-1" upper="1" effort="1" velocity="1"/>') + joint(
+    '<limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="to_arm" multiplier="@" offset="-0.9"/>',
+    parent="arm",
+    child="hand",
+)
+
 CASES: list[tuple[str, str, dict[str, str]]] = [
     # inertia-not-positive-definite: up to 1e-9 of the largest moment
     ("I502", link(inertial("1", "1 1 @")), {"1e-8": "", "1e-10": "warning", "0": "warning", "-1": "error"}),
@@ -183,6 +194,13 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     ("S908", cart(more=caster("-0.3 0 @")), {"-0.05": "", "-0.033": "", "-0.031": "warning"}),
     ("S908", cart(more=caster("-0.3 0 @")), {"-0.054": "", "-0.056": "warning"}),
     ("S908", cart(more=caster("-0.3 0 @")), {"0.149": "warning", "0.151": ""}),
+    # joint-origin-too-far: without sizes, more than 20 times the distance of all other joints, which is not zero
+    ("J421", UNKNOWN_SIZES, {"0 0 0.59": "warning", "0 0 0.61": "", "0 0 0.04": "warning", "0 0 0": ""}),
+    # mimic-beyond-limits: at most half of the range is within the limits; a joint that does not move has no range
+    ("J423", FOLLOWER, {"1": "", "3": "warning"}),
+    ("J423", FOLLOWER.replace("-0.9", "2"), {"0.1": "warning", "0": ""}),
+    # collision-unlike-visual: three times as large on two sides
+    ("G620", link(CUBE, box("@", "collision")), {"9 2.4 2": "", "9 5 2": "", "9 6.1 2": "warning"}),
 ]
 
 

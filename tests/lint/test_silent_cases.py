@@ -48,6 +48,19 @@ def test_plain_urdf_without_xacro(content: str, attributes: str, is_reported: bo
     assert ("warning X123" in found) is is_reported
 
 
+@pytest.mark.parametrize(
+    ("file", "text", "found"),
+    [
+        ("arm.urdf", robot(""), ["error T211"]),
+        ("arm.URDF", robot(""), ["error T211"]),
+        ("arm.xml", robot(""), []),  # a fragment
+        ("arm.urdf", '<robot name="arm"><link name="base"</robot>', ["error E001"]),
+    ],
+)
+def test_robots_without_links(file: str, text: str, found: list[str], tmp_path: Path) -> None:
+    assert codes(tmp_path, {file: text}) == found
+
+
 @pytest.mark.parametrize(("command", "is_reported"), [("xacro", False), ("cat", True)])
 def test_urdf_on_which_a_launch_file_runs_xacro(command: str, is_reported: bool, tmp_path: Path) -> None:
     text = robot('<xacro:property name="a" value="1"/><link name="base"/>', PREFIX)

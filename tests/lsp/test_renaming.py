@@ -115,6 +115,19 @@ def test_a_parameter_is_renamed_with_its_arguments(cart):
     assert applied(ROBOT, changes[cart.uri("cart.urdf.xacro")]) == ROBOT.replace(" side=", " where=")
 
 
+def test_a_parameter_is_not_renamed_to_a_property_that_its_macro_reads(client):
+    text = """<robot name="arm" xmlns:xacro="http://ros.org/xacro">
+  <xacro:property name="base" value="base_link"/>
+  <xacro:macro name="tool" params="kind"><link name="${kind}_of_${base}"/></xacro:macro>
+  <xacro:tool kind="gripper"/>
+</robot>
+"""
+    assert 'params="type"' in renamed(client, text, 'params="ki|nd"', "type")["arm.urdf.xacro"]
+    with pytest.raises(AssertionError) as caught:
+        renamed(client, text, 'params="ki|nd"', "base")
+    assert "renaming the parameter `kind` to `base` changes the robot: rename it manually" in str(caught.value)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("mark", "name", "replaced"),

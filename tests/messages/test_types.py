@@ -71,6 +71,14 @@ def test_times_as_in_ros_1_and_in_seconds(written: object, sec: int, nanosec: in
     assert (duration.sec, duration.nanosec, message.header.frame_id) == (sec, nanosec, "x")
 
 
+def test_durations_are_32_bits_of_seconds() -> None:
+    point = {"time_from_start": -(2**31)}
+    assert from_fields("trajectory_msgs/JointTrajectoryPoint", point).time_from_start.sec == -(2**31)
+    for seconds in (-(2**31) - 1, 2**31):
+        with pytest.raises(UsageError, match="is out of range for builtin_interfaces/msg/Duration"):
+            from_fields("trajectory_msgs/JointTrajectoryPoint", {"time_from_start": seconds})
+
+
 @pytest.mark.parametrize(
     ("written", "reported"),
     [

@@ -142,6 +142,8 @@ def test_values_between_two_messages_are_interpolated() -> None:
     poses.add(0.0, turned(0, 0, 0.0))
     poses.add(1.0, tuple(-x for x in turned(0, 0, 0.4)))
     np.testing.assert_allclose(np.abs(poses.at(0.5)), np.abs(turned(0, 0, 0.2)), atol=1e-12)
+    poses.add(2.0, (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0))  # half a turn about x
+    assert np.linalg.norm(poses.at(1.5)[3:]) == pytest.approx(1.0)
 
 
 def test_a_value_replaces_one_of_the_same_time_and_the_oldest_ones_are_dropped() -> None:
@@ -179,6 +181,9 @@ def test_bag_info(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bag", "info", str(file), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["topics"][0] == {"name": "/joint_states", "type": "sensor_msgs/msg/JointState", "messages": 21}
+    file = write_bag(tmp_path / "empty.bag", [])
+    assert main(["bag", "info", str(file)]) == 0
+    assert capsys.readouterr().out == f"{file}: ROS 1, 0 messages in 0.000 s, from 0.000 s\n"
 
 
 @pytest.mark.parametrize(

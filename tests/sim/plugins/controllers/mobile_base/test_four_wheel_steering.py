@@ -79,6 +79,9 @@ def drive(simulator: Any, v: float, w: float, seconds: float) -> None:
 
 def test_wheels_and_steering(make: Make) -> None:
     simulator = make()
+    simulator.run(0.5)  # before the first command
+    assert simulator.state.position("front_left_knuckle_joint") == pytest.approx(0.0, abs=1e-3)
+    assert simulator.state.velocity("front_left_joint") == pytest.approx(0.0, abs=1e-3)
     drive(simulator, 0.5, 0.4, 3.0)
     inside, outside = (0.5 - side * 0.4 * (TRACK / 2 - OFFSET) for side in (1, -1))
     left, right = math.atan(0.4 * BASE / 2 / inside), math.atan(0.4 * BASE / 2 / outside)
