@@ -52,6 +52,29 @@ def test_a_footprint_with_the_wrong_sign_is_reported_at_its_place(tmp_path):
     assert found(tmp_path, {"cart.urdf": robot}, "S911") == [("S911", "cart.urdf", 2)]
 
 
+BODY = (
+    '<link name="{0}"><collision><geometry><box size="{1}"/></geometry></collision><inertial><mass value="1"/>'
+    '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+)
+
+
+@pytest.mark.parametrize(
+    ("hitch", "side", "lines"), [("revolute", 0.26, []), ("fixed", 0.26, [2]), ("revolute", 0.1, [2])]
+)
+def test_a_footprint_does_not_cover_the_trailer(tmp_path, hitch, side, lines):
+    wheels = wheel("left", "0 0.2 0") + wheel("right", "0 -0.2 0")
+    towed = wheel("near", "-0.6 0.4 0") + wheel("far", "-0.6 -0.4 0")
+    joint = (
+        f'<joint name="hitch" type="{hitch}"><origin xyz="-0.3 0 0"/><axis xyz="0 0 1"/><parent link="base_link"/>'
+        '<child link="trailer"/><limit lower="-1" upper="1" effort="9" velocity="9"/></joint>'
+    )
+    bodies = BODY.format("base_link", "0.6 0.3 0.1") + BODY.format("trailer", "0.1 0.1 0.1")
+    robot = f"<robot name='tug'>{bodies}{joint}{wheels}{towed.replace('base_link', 'trailer')}</robot>"
+    footprint = f"costmap:\n  footprint: [[0.3, {side}], [0.3, -{side}], [-0.3, -{side}], [-0.3, {side}]]\n"
+    files = {"tug.urdf": robot, "costmap.yaml": footprint, "package.xml": MANIFEST.format("A tug.")}
+    assert [line for _, _, line in found(tmp_path, files, "K979")] == lines
+
+
 TUBE = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="m" value="2.0"/>
 <link name="tube"><collision><origin rpy="0 1.570796327 0"/><geometry><cylinder radius="0.03" length="0.4"/></geometry>
 </collision><inertial>

@@ -484,3 +484,31 @@ def test_filters_that_both_publish_the_global_transform_are_one_finding(tmp_path
     (tmp_path / "pair.yaml").write_text(PAIR.replace("world_frame: odom", "world_frame: map"))
     [found] = [one.message for one in lint(tmp_path) if one.code == "K983"]
     assert "publish the same transform" in found
+
+
+GROUPS = """teleop_twist_joy:
+  enable_button: 4
+  axis_linear:
+    x: 1
+  scale_linear:
+    x: 0.4
+  axis_angular:
+    yaw: 0
+"""
+
+
+def test_axes_of_a_joystick_in_ros1_are_numbers_or_groups(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text(
+        "<package format='2'><name>cart</name><version>1.0.0</version><description>A cart.</description>"
+        "<maintainer email='test@example.org'>tester</maintainer><license>MIT</license>"
+        "<buildtool_depend>catkin</buildtool_depend><exec_depend>teleop_twist_joy</exec_depend></package>"
+    )
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "launch/joy.launch").write_text(
+        "<launch><rosparam command='load' file='$(find cart)/joy.yaml'/>"
+        "<node pkg='teleop_twist_joy' type='teleop_node' name='teleop_twist_joy'/></launch>"
+    )
+    (tmp_path / "joy.yaml").write_text(GROUPS)
+    assert [one for one in lint(tmp_path) if one.file.endswith(".yaml")] == []
+    (tmp_path / "joy.yaml").write_text(GROUPS.replace("button: 4", "button: four"))
+    assert [one.code for one in lint(tmp_path) if one.file.endswith(".yaml")] == ["K971"]

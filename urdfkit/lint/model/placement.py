@@ -211,3 +211,15 @@ def _farthest(shape: Geometry, pose: Pose, point: Vector) -> float:
     if isinstance(shape, Capsule):
         return hypot(hypot(x, y), abs(z) + shape.length / 2.0) + shape.radius
     return hypot(hypot(x, y), z) + (shape.radius if isinstance(shape, Sphere) else 0.0)
+
+
+def links_below(robot: Robot, name: str) -> set[str]:
+    """Return the names of a link and of all links that its joints carry."""
+    found = {name}
+    pending = [name]
+    while pending:
+        for joint in robot.children_of.get(pending.pop(), ()):
+            if joint.child is not None and joint.child not in found:
+                found.add(joint.child)
+                pending.append(joint.child)
+    return found

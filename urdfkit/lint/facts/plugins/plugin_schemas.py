@@ -313,8 +313,7 @@ robot_link_command_frame cartesian_command_in_topic joint_command_in_topic joint
 command_out_topic monitored_planning_scene_topic: text
 
 teleop_twist_joy
-axis_linear axis_angular enable_button enable_turbo_button: int
-scale_linear scale_linear_turbo scale_angular scale_angular_turbo: double
+enable_button enable_turbo_button: int
 
 pointcloud_to_laserscan
 transform_tolerance min_height max_height angle_min angle_max angle_increment scan_time range_min range_max: double

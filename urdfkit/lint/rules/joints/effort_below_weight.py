@@ -1,7 +1,7 @@
 """J429 effort-below-weight."""
 
-from urdfkit.description.urdf.robot import Joint, Link
 from urdfkit.lint.facts.placement.joint_axes import axis_in_root
+from urdfkit.lint.model.placement import links_below
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _GRAVITY = 9.8
@@ -54,22 +54,11 @@ class EffortBelowWeight(RobotRule):
             axis = axis_in_root(joint, model) if effort > 0.0 and joint.mimic is None else None
             if axis is None or abs(axis[2]) < _UPRIGHT or joint.limit is None:
                 continue
-            carried = _links_below(joint, model)
+            names = links_below(model.robot, joint.child or "")
+            carried = [link for name, link in model.robot.link_by_name.items() if name in names]
             mass = sum((link.inertial.mass or 0.0) if link.inertial is not None else 0.0 for link in carried)
             if effort < mass * _GRAVITY * abs(axis[2]):
                 message = f"effort limit {effort:g} N of joint `{joint.name}` is less than the weight of its load, "
                 message += f"{mass * _GRAVITY:.4g} N ({mass:.4g} kg)"
-                names = tuple(link.name for link in carried)
-                yield self.at(model, joint.limit.element, message, attribute="effort", joint=joint.name, names=names)
-
-
-def _links_below(joint: Joint, model: Model) -> list[Link]:
-    """Return the links that a joint carries."""
-    pending, found = [joint.child or ""], dict[str, Link]()
-    while pending:
-        name = pending.pop()
-        link = model.robot.link_by_name.get(name)
-        if link is not None and name not in found:
-            found[name] = link
-            pending += [below.child or "" for below in model.robot.children_of.get(name, ())]
-    return list(found.values())
+                loaded = tuple(link.name for link in carried)
+                yield self.at(model, joint.limit.element, message, attribute="effort", joint=joint.name, names=loaded)

@@ -1,9 +1,13 @@
 """K979 costmap-contradicts-robot."""
 
 import re
-from math import hypot
+from collections.abc import Sequence
+from itertools import combinations
+from math import dist, hypot
 
-from urdfkit.lint.model.placement import shapes_of
+from urdfkit.description.urdf.geometry import rotate, unit
+from urdfkit.lint.facts.gazebo.drive_wheels import Wheel
+from urdfkit.lint.model.placement import links_below, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 from urdfkit.record import record
 
@@ -34,6 +38,13 @@ class _Size:
     def half(self) -> float:
         """Half of the shorter side [m]."""
         return min(self.high[0] - self.low[0], self.high[1] - self.low[1]) / 2.0
+
+
+_WIDE = 4.0
+"""Largest ratio of the distance between the wheels of a caster to their radius."""
+
+_VERTICAL = 0.985
+"""Smallest vertical component of the axis of a hitch or caster."""
 
 
 class CostmapContradictsRobot(RobotRule):
@@ -138,7 +149,9 @@ def _size(model: Model) -> _Size | None:
     for joint in model.robot.joints:  # Parents precede children in most files; a missed arm only widens the box.
         if joint.parent in moved:
             moved.add(joint.child)
-    moved -= {wheel.joint.child for wheel in rolling_wheels(model)}
+    wheels = rolling_wheels(model)
+    moved -= {wheel.joint.child for wheel in wheels}
+    moved |= _towed(model, wheels)
     points = []
     for name, extent in model.extents.items():
         if name in moved or name not in model.frames:
@@ -150,3 +163,17 @@ def _size(model: Model) -> _Size | None:
     low, high = (min(sides[0]), min(sides[1])), (max(sides[0]), max(sides[1]))
     size = _Size(low, high, max(hypot(point[0], point[1]) for point in points))
     return size if size.half > 0.0 else None
+
+
+def _towed(model: Model, wheels: Sequence[Wheel]) -> set[str]:
+    """Return the links of trailers: what turns about a vertical axis on wheels that are far apart, unlike a caster."""
+    towed: set[str] = set()
+    for joint in model.robot.joints:
+        frame, axis = model.frames.get(joint.child or ""), unit(joint.axis)
+        if not joint.is_movable or frame is None or axis is None or abs(rotate(frame.rotation, axis)[2]) < _VERTICAL:
+            continue
+        below = links_below(model.robot, joint.child or "")
+        own = [wheel for wheel in wheels if wheel.joint.child in below]
+        if any(dist(a.place, b.place) > _WIDE * a.radii[0] for a, b in combinations(own, 2)):
+            towed |= below
+    return towed

@@ -1,6 +1,6 @@
 """T203 multiple-roots."""
 
-from urdfkit.description.urdf.robot import Robot
+from urdfkit.lint.model.placement import links_below
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -49,24 +49,13 @@ class MultipleRoots(RobotRule):
         roots = [link for link in roots if link.name not in meant and not masked.has_child(link.name)]
         if len(roots) < 2 + len(joint_by_unknown_child.keys() - likely.keys()):
             return
-        main = max(roots, key=lambda link: _links_below(robot, link.name))
+        main = max(roots, key=lambda link: len(links_below(robot, link.name)))
         for link in roots:
             if link is not main:
                 label = f"link `{link.name}`" if link.name else "a link without a name"
                 message = f"{label} has no parent, but `{main.name}` is already the root"
                 help = _suggested_change(joint_by_unknown_child, link.name, main.name) if link.name else None
                 yield self.at(model, link.element, message, attribute="name", link=link.name, help=help)
-
-
-def _links_below(robot: Robot, name: str) -> int:
-    seen = {name}
-    pending = [name]
-    while pending:
-        for joint in robot.children_of.get(pending.pop(), ()):
-            if joint.child is not None and joint.child not in seen:
-                seen.add(joint.child)
-                pending.append(joint.child)
-    return len(seen)
 
 
 def _suggested_change(joint_by_unknown_child: dict[str, str], name: str, root: str) -> str:
