@@ -112,6 +112,10 @@ class LaunchReader:
         value = self.assigned.get(node.id) if isinstance(node, ast.Name) else node
         return [] if isinstance(value, (ast.List, ast.Tuple, ast.BinOp)) else [node]
 
+    def _end(self, node: ast.expr) -> str:
+        """Return the last character of a text, or of the last part of a sum, if it is constant."""
+        return (self.text(node.right if isinstance(node, ast.BinOp) else node) or "")[-1:]
+
     def share(self, node: ast.expr) -> str | None:
         """Return the package whose share folder a call returns; None for other calls."""
         if isinstance(node, ast.Call) and name_of(node.func) in SHARE:
@@ -129,7 +133,8 @@ class LaunchReader:
             return package, ""
         if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Div)):
             head, tail = self.path(node.left, depth + 1), self.text(node.right)
-            if head is None or tail is None or (isinstance(node.op, ast.Add) and not tail.startswith("/")):
+            has_slash = isinstance(node.op, ast.Div) or (self._end(node.left) + (tail or "")[:1]).count("/") > 0
+            if head is None or tail is None or not has_slash:
                 return None
             return head[0], f"{head[1]}/{tail.strip('/')}"
         if isinstance(node, (ast.List, ast.Tuple, ast.JoinedStr)):  # joined without a separator

@@ -111,6 +111,8 @@ class _Inliner(ast.NodeTransformer):
             elif isinstance(each, ast.Return) and each.value is not None:
                 result = self._replaced(each.value, values)
         self._depth -= 1
+        if result is not node:
+            result.called_at = node  # type: ignore[attr-defined]
         return result
 
     def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
@@ -158,6 +160,17 @@ class _Inliner(ast.NodeTransformer):
 class _Substitution(ast.NodeTransformer):
     def __init__(self, values: Mapping[str, ast.expr]) -> None:
         self._values = values
+
+    def visit(self, node: ast.AST) -> ast.AST:
+        """Replace names in a node, except the variables of a list comprehension."""
+        if not isinstance(node, (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)):
+            replaced: ast.AST = super().visit(node)
+            return replaced
+        parts = (part for each in node.generators for part in ast.walk(each.target))
+        bound = {part.id for part in parts if isinstance(part, ast.Name)}
+        node.generators[0].iter = self.visit(node.generators[0].iter)  # type: ignore[assignment]
+        own = {name: value for name, value in self._values.items() if name not in bound}
+        return _Substitution(own).generic_visit(node)
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
         value = self._values.get(node.id) if isinstance(node.ctx, ast.Load) else None

@@ -153,6 +153,14 @@ def place(source: Source, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, i
     return offset(node.lineno, node.col_offset), offset(end_line, end_column)
 
 
+def at_call(node: ast.expr) -> ast.Constant | None:
+    """Return the last constant of an expression that is outside of its lines, at a call of the function around it."""
+    first, last = node.lineno, node.end_lineno or node.lineno
+    inner = [each for each in ast.walk(node) if isinstance(each, ast.Constant)]
+    outside = [each for each in inner if not first <= each.lineno <= last]
+    return max(outside, key=lambda each: (each.lineno, each.col_offset), default=None)
+
+
 def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> Iterator[PackagePath]:
     """Yield the package paths in a Python launch file that a reader can evaluate."""
     nodes = list(ast.walk(tree))
@@ -168,12 +176,9 @@ def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> I
         is_join = isinstance(node, ast.Call) and name_of(node.func) in JOINS
         if node in inner or not (is_join or isinstance(node, (ast.BinOp, ast.List, ast.JoinedStr))):
             continue
+        if isinstance(node, ast.List) and len(node.elts) == 1 and isinstance(node.elts[0], (ast.Call, ast.BinOp)):
+            continue
         assert isinstance(node, ast.expr)
         found = reader.path(node)
         if found is not None and found[1].strip("/"):
-            last = node.args[-1] if isinstance(node, ast.Call) and node.args else node
-            last = last.elts[-1] if isinstance(last, (ast.List, ast.Tuple)) else last
-            is_on_other_line = (
-                isinstance(last, ast.Constant) and last.lineno != node.lineno
-            )  # such as at a call of a function
-            yield PackagePath(found[0], found[1].strip("/"), *place(source, last if is_on_other_line else node))
+            yield PackagePath(found[0], found[1].strip("/"), *place(source, at_call(node) or node))

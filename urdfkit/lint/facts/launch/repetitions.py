@@ -95,17 +95,19 @@ def repeated_nodes(source: Source, tree: ast.Module) -> Iterator[tuple[str, Span
         return
     reader = launch_reader(tree)
     for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
-        first: dict[tuple[str, str], ast.Call] = {}
+        earlier: dict[tuple[str, str], list[ast.Call]] = {}
         calls = (call for statement in function.body for call in calls_in(statement, _NODES))
-        for call in sorted(calls, key=lambda each: (each.lineno, each.col_offset)):
+        for call in sorted(calls, key=lambda each: (_name_of(each).lineno, _name_of(each).col_offset)):
             words = {word.arg: word.value for word in call.keywords if word.arg is not None}
             name, space = (reader.text(words[key]) if key in words else "" for key in ("name", "namespace"))
             if not name or space is None or len(words) < len(call.keywords):
                 continue
-            other = first.setdefault((space, name), call)
-            if other is not call and not all(_has_condition(each) for each in (other, call)):
-                start, end = place(source, words["name"])
-                yield name, source.span(start, end), other.lineno
+            others = earlier.setdefault((space, name), [])
+            other = next((each for each in others if _condition(each) in ("", _condition(call))), None)
+            other = others[0] if other is None and others and not _condition(call) else other
+            if other is not None:
+                yield name, source.span(*place(source, _name_of(call))), _name_of(other).lineno
+            others.append(call)
 
 
 def repeated_simulators(source: Source, tree: ast.Module) -> Iterator[tuple[Span, str]]:
@@ -128,8 +130,19 @@ def repeated_simulators(source: Source, tree: ast.Module) -> Iterator[tuple[Span
             yield place_of_condition, f"line {first.lineno} also starts Gazebo under this condition"
 
 
-def _has_condition(call: ast.Call) -> bool:
-    return any(word.arg == "condition" for word in call.keywords)
+def _condition(call: ast.Call) -> str:
+    return next((unparsed(word.value) for word in call.keywords if word.arg == "condition"), "")
+
+
+def _name_of(call: ast.Call) -> ast.expr:
+    """Return the name of a node, or the argument of the call of a function that sets it."""
+    name = next((word.value for word in call.keywords if word.arg == "name"), call)
+    called = getattr(call, "called_at", None)
+    if called is None:
+        return name
+    parts = [each for each in ast.walk(name) if isinstance(each, ast.Constant)]
+    passed = [each for each in parts if called.lineno <= each.lineno <= (called.end_lineno or called.lineno)]
+    return passed[-1] if passed else called
 
 
 def calls_in(statement: ast.AST, names: tuple[str, ...]) -> Iterator[ast.Call]:

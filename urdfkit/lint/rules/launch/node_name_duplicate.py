@@ -8,10 +8,10 @@ class NodeNameDuplicate(RobotRule):
     """An XML or Python launch file starts two nodes with the same name in the same namespace.
 
     ## What it does
-    Compares the names of all nodes in a launch file. Names with substitutions are not checked. Two nodes that both have
-    a condition are not compared. In Python, files that push namespaces or react to events are not checked, and nodes in
-    branches, loops, groups or different functions are not compared. Also reports two includes that start Gazebo under
-    the same condition.
+    Compares the names of all nodes in a launch file. Names with substitutions are not checked. Two nodes with
+    different conditions are not compared. In Python, files that push namespaces or react to events are not checked, and
+    nodes in branches, loops, groups or different functions are not compared. Also reports two includes that start
+    Gazebo under the same condition.
 
     ## Why is this bad?
     roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and a parameter or a service request may
@@ -39,11 +39,13 @@ class NodeNameDuplicate(RobotRule):
         for file, source in model.related_files.items():
             if not file.endswith((".launch", ".launch.xml", "_launch.xml")):
                 continue
-            first: dict[str, Tag] = {}
+            earlier: dict[str, list[Tag]] = {}
             for tag in (tag for root in Document(source).roots for tag in root.walk()):
                 name = _full_name(tag) if tag.name == "node" else None
-                other = first.setdefault(name, tag) if name is not None else tag
-                if other is not tag and not (_has_condition(other) and _has_condition(tag)):
+                others = earlier.setdefault(name, []) if name is not None else []
+                other = next((each for each in others if _both_start(each, tag)), None)
+                others.append(tag)
+                if other is not None:
                     written = tag.attributes["name"]
                     line = source.position(other.start).line
                     message = f"the node on line {line} also has the name `{written.value}`"
@@ -71,5 +73,17 @@ def _full_name(tag: Tag) -> str | None:
     return "/".join([*reversed(parts), own.value]) if own is not None and "$" not in f"{own.value}{parts}" else None
 
 
-def _has_condition(tag: Tag) -> bool:
-    return any("if" in each.attributes or "unless" in each.attributes for each in (tag, *tag.ancestors()))
+def _both_start(one: Tag, other: Tag) -> bool:
+    """Return whether two nodes can start together: one has no conditions except those of the other."""
+    conditions = [
+        {
+            (key, each.attributes[key].value)
+            for each in (tag, *tag.ancestors())
+            for key in _CONDITIONS & {*each.attributes}
+        }
+        for tag in (one, other)
+    ]
+    return conditions[0] <= conditions[1] or conditions[1] <= conditions[0]
+
+
+_CONDITIONS = {"if", "unless"}
