@@ -97,3 +97,19 @@ def test_two_nodes_of_one_name_need_different_conditions(tmp_path, first, second
         "joy.launch.xml": "the node on line 3 also has the name `joy`",
     }
     assert messages == (joy if is_reported else {})
+
+
+@pytest.mark.parametrize(
+    ("body", "is_reported"),
+    [
+        ('mode = LaunchConfiguration("modes")\n    return ' + JOY.format("arguments=[mode]"), True),
+        ('mode = LaunchConfiguration("modes")\n    mode = LaunchConfiguration("mode")\n    return [mode]', False),
+        ('mode = LaunchConfiguration("modes")\n    mode = [mode]\n    return mode', True),
+        ('return [LaunchConfiguration(name) for name in ["mode"]]', False),
+        ('context.launch_configurations.update({"modes": "1"})\n    return LaunchConfiguration("modes")', False),
+        ('return LaunchConfiguration("modes") if "modes" in context.launch_configurations else None', False),
+    ],
+)
+def test_a_value_that_nothing_uses_needs_no_argument(tmp_path, body, is_reported):
+    folder = cart(tmp_path, "context, name", body, 'action(None, "modes")', JOY.format('name="joy"'))
+    assert bool(found(folder, "L101")) is is_reported

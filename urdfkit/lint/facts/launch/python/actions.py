@@ -5,8 +5,9 @@ from __future__ import annotations
 import ast
 import re
 import sys
+from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed, unparsed
+from urdfkit.description.launch.python_constants import assignments, launch_reader, name_of, parsed, unparsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
@@ -44,6 +45,7 @@ class _PythonActions:
     def __init__(self, source: Source, tree: ast.Module, found: LaunchActions) -> None:
         self._source, self._tree, self._found, self._constants = source, tree, found, launch_reader(tree)
         self._conditional = set[ast.AST]()
+        self._replaced = set(_replaced_values(tree))
 
     def read(self) -> None:
         for node in ast.walk(self._tree):
@@ -58,6 +60,9 @@ class _PythonActions:
                 if name is not None and isinstance(node.ctx, ast.Load):
                     self._found.used.append((name, False))
                 elif name is not None:
+                    self._found.assigned.add(name.name)
+            elif isinstance(node, ast.Compare) and name_of(node.comparators[0]) == "launch_configurations":
+                if (name := self._named(node.left)) is not None:  # code that runs only if the argument exists
                     self._found.assigned.add(name.name)
             elif isinstance(node, ast.AnnAssign) and name_of(node.annotation) in _DECLARATIONS:
                 # A field of a class of arguments; its base classes can have more.
@@ -80,10 +85,16 @@ class _PythonActions:
                 else:
                     has_default = "default_value" in keywords or len(node.args) > 1
                     found.declared.setdefault(name.name, Declared(name, not has_default))
+            elif name is not None and kind == "LaunchConfiguration" and node in self._replaced:
+                pass
             elif name is not None and kind == "LaunchConfiguration":
                 found.used.append((name, "default" in keywords or len(node.args) > 1))
             elif name is not None:
                 found.assigned.add(name.name)
+        elif kind in ("setdefault", "update") and name_of(getattr(node.func, "value", node)) == "launch_configurations":
+            keys = first.keys if isinstance(first, ast.Dict) else [first]
+            names = [self._named(key) if key is not None else None for key in keys]
+            found.assigned.update(COMPUTED if name is None else name.name for name in names)
         elif kind == "IncludeLaunchDescription":
             file = first or keywords.get("launch_description_source")
             passed, is_all = self._pairs(keywords.get("launch_arguments"))
@@ -200,3 +211,23 @@ class _PythonActions:
                 if default is not None and name is not None and self._constants.text(call.args[0]) == name:
                     return self._path(default)
         return "", ""
+
+
+def _replaced_values(tree: ast.Module) -> Iterator[ast.expr]:
+    """Yield the values of variables that the same block assigns again before their use."""
+    for block in (node.body for node in ast.walk(tree) if isinstance(node, (ast.Module, ast.FunctionDef))):
+        last: dict[str, ast.expr] = {}
+        for statement in block:
+            for part in ast.walk(statement):
+                if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load):
+                    last.pop(part.id, None)
+            for name, value in _assigned(statement):
+                if name in last:
+                    yield last[name]
+                last[name] = value
+
+
+def _assigned(statement: ast.stmt) -> list[tuple[str, ast.expr]]:
+    is_plain = isinstance(statement, ast.Assign) and len(statement.targets) == 1
+    found = assignments(statement.targets[0], statement.value) if isinstance(statement, ast.Assign) and is_plain else ()
+    return [(name.id, value) for name, value in found]
