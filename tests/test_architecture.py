@@ -43,7 +43,8 @@ def test_the_plain_lint_path_loads_nothing_heavy(tmp_path: Path) -> None:
         "import contextlib, io\nfrom urdfkit.cli import main\n"
         f"with contextlib.redirect_stdout(io.StringIO()):\n    assert main(['lint', {str(model)!r}]) == 0"
     )
-    assert modules_after(code).isdisjoint(HEAVY)
+    # Importing typing takes as long as parsing the robot.
+    assert (modules_after(code) - modules_after("")).isdisjoint((*HEAVY, "typing"))
 
 
 def test_import_urdfkit_adds_only_a_handful_of_modules() -> None:

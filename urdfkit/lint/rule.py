@@ -4,8 +4,9 @@ Rules come in three layers: `SourceRule` checks the text of each file, `FaultRul
 checks the expanded robot. All rules yield findings at a position in the source text.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
-from typing import Any, ClassVar, Literal
 
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xml.element import Element
@@ -14,6 +15,10 @@ from urdfkit.errors import nearest, shortened
 from urdfkit.lint.finding import Finding, Fix, Severity, suggestion_of
 from urdfkit.lint.model.model import Model as Model
 from urdfkit.lint.model.tags import Document
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, ClassVar, Literal
 
 Findings = Iterator[Finding]
 """What `Rule.check` returns."""

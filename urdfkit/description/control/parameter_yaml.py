@@ -1,12 +1,17 @@
 """Parameters from YAML with their source positions, in the layouts of ROS 1 and ROS 2."""
 
+from __future__ import annotations
+
 from pathlib import Path
-from typing import Any
 
 from urdfkit.description.control.settings import Settings
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.errors import DescriptionError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 _MAX_DEPTH = 30
 _MAX_NODES = 100_000

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.description.meshes.collada_outline import outline_of
 from urdfkit.description.meshes.points import has_infinite
 from urdfkit.description.meshes.stl import HEADER, SIZE
 
@@ -71,6 +70,8 @@ def dae_fault(content: bytes, outline: Outline | None = None) -> str:
         content: of the file.
         outline: of the file, if it is known.
     """
+    from urdfkit.description.meshes.collada_outline import outline_of
+
     skeleton, texts = outline or outline_of(content)
     inputs = [tag for tag in _INPUT.findall(skeleton) if b"POSITION" in tag]
     positions = {name for tag in inputs for name in _SOURCE.findall(tag)}

@@ -1,7 +1,8 @@
 """Packages without a robot, such as bringup: their launch, YAML and build files are checked."""
 
+from __future__ import annotations
+
 from pathlib import Path
-from typing import Any
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
@@ -10,6 +11,10 @@ from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.target_platform import family_of, release_of
 from urdfkit.lint.rules import related_file_rules, robot_rules
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 _FAMILIES = "KLM"
 """First letters of the codes of rules on packages, launch files and MoveIt."""

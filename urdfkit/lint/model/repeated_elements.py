@@ -3,10 +3,15 @@
 They differ in their names and in the macro call only. A rule that checks each element alone needs to check one of them.
 """
 
+from __future__ import annotations
+
 from collections.abc import Hashable
-from typing import Any
 
 from urdfkit.description.xml.element import Element
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 _NAMED = {"parent": "link", "child": "link"}
 """Element → attribute whose value is the name of another element."""

@@ -1,10 +1,15 @@
 """xacro written without its prefix: which elements are meant as directives and macro calls."""
 
+from __future__ import annotations
+
 from collections.abc import Collection, Iterable, Iterator
-from typing import Any
 
 from urdfkit.description.xacro.evaluation.tree import MORE, Tag
 from urdfkit.description.xacro.faults import Unprefixed
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 _DIRECTIVES: dict[str, tuple[str, ...]] = {
     "macro": ("name",),

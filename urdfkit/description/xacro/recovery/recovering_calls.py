@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure
@@ -19,6 +17,8 @@ from urdfkit.errors import XmlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from urdfkit.description.xacro.evaluation.evaluator import Steps
 
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import Any
 
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 _MAX_NODES = 20_000
 _MAX_DEPTH = 12
