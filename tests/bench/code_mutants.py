@@ -14,10 +14,10 @@ Then try mutants::
 
 It draws expressions at random on the covered lines of these folders (such as `urdfkit/sim`; without any, of the
 package), changes one comparison, operator, constant, boolean or returned value in another copy, and runs the tests
-that cover the line there, those of the module's own test file first. Modules with compiled kernels are ignored: a
-change would compile them again. Only tests that pass without a change are used, and the tests that noticed a mutant
-run once more without one at the end. Prints each mutant that no test notices, and the share noticed by package. Exits
-with status 1 below 90 %. Needs Linux.
+that cover the line there, those of the module's own test file first, for up to two minutes of CPU time. Modules with
+compiled kernels are ignored: a change would compile them again. Only tests that pass without a change are used, and the
+tests that noticed a mutant run once more without one at the end. Prints each mutant that no test notices, and the share
+noticed by package. Exits with status 1 below 90 %. Needs Linux.
 """
 
 from __future__ import annotations
@@ -46,9 +46,10 @@ import pytest
 from tests.bench.covered_lines import RECORDED, ROOT, blocks, copied, python_files, record
 
 WANTED = 0.9
-MOST_SECONDS = 20.0
-"""Time of the tests that run against a mutant, without changes: the tests of the module's own file come first [s]."""
-MOST_TESTS = 400
+BATCH_SECONDS = 20.0
+"""Time of the tests that run against a mutant in one process, without changes [s]."""
+BATCH_TESTS = 400
+MOST_BATCHES = 6
 TIME_LIMIT = 60
 """A mutant whose tests take more CPU time hangs and counts as noticed [s]."""
 WAITING_LIMIT = 240
@@ -185,8 +186,8 @@ def covered_mutants(tests: dict[str, list[str]], folders: tuple[str, ...]) -> li
     return found
 
 
-def chosen_tests(file: str, tests: list[str], seconds: dict[str, float]) -> list[str]:
-    """Return the tests to run for a change of a file, at most `MOST_SECONDS`.
+def batches(file: str, tests: list[str], seconds: dict[str, float]) -> list[list[str]]:
+    """Return the tests to run for a change of a file, those that may notice it soonest first.
 
     First come those of its own test file, then cases with its name (such as those of a rule). Then comes one case of a
     test function of each test file, those of near folders first, then of a second function of each file, and so on;
@@ -211,14 +212,15 @@ def chosen_tests(file: str, tests: list[str], seconds: dict[str, float]) -> list
         is_own = place.name == f"test_{path.stem}.py"
         return not is_own, f"[{path.stem.replace('_', '-')}" not in test, number[test], -common, seconds[test]
 
-    chosen: list[str] = []
+    found: list[list[str]] = [[]]
     total = 0.0
-    for test in sorted(tests, key=distance)[:MOST_TESTS]:
+    for test in sorted(tests, key=distance):
         total += seconds[test]
-        if chosen and total > MOST_SECONDS:
-            break
-        chosen.append(test)
-    return chosen
+        if found[-1] and (total > BATCH_SECONDS or len(found[-1]) == BATCH_TESTS):
+            found.append([])
+            total = seconds[test]
+        found[-1].append(test)
+    return found[:MOST_BATCHES]
 
 
 def first_failure(copy: Path, tests: list[str]) -> str | None:
@@ -268,10 +270,13 @@ def _run(copy: Path, tests: list[str], report_to: int) -> int:
     return int(pytest.main(["-x", "-q", "-W", ignored, "-p", "no:cacheprovider", *tests], plugins=[FailureReport()]))
 
 
-def is_noticed_by(copy: Path, mutant: Mutant, tests: list[str], number: int) -> str | None:
+def is_noticed_by(copy: Path, mutant: Mutant, chosen: list[list[str]], number: int) -> str | None:
     """Return the test that fails with the change, or None.
 
     Args:
+        copy: the copy of the checkout.
+        mutant: the change.
+        chosen: see `batches`.
         number: differs between mutants; becomes the time of the file, so that Python compiles it again.
     """
     target = copy / mutant.file
@@ -279,7 +284,7 @@ def is_noticed_by(copy: Path, mutant: Mutant, tests: list[str], number: int) -> 
     target.write_bytes(source[: mutant.start] + mutant.text.encode() + source[mutant.end :])
     os.utime(target, (number, number))
     try:
-        return first_failure(copy, tests)
+        return next(filter(None, (first_failure(copy, tests) for tests in chosen)), None)
     finally:
         target.write_bytes(source)
         os.utime(target, ns=(status.st_atime_ns, status.st_mtime_ns))
@@ -291,7 +296,7 @@ def try_mutants(count: int = 200, seed: int = 0, folders: tuple[str, ...] = ("ur
     drawn = covered_mutants(tests, tuple(f"{folder.rstrip('/')}/" for folder in folders))
     print(f"{len(drawn)} mutants on covered lines; trying {count} of them, seed {seed}", flush=True)
     sample = [
-        (mutant, chosen_tests(mutant.file, all_tests, seconds), len(all_tests))
+        (mutant, batches(mutant.file, all_tests, seconds), len(all_tests))
         for mutant, all_tests in random.Random(seed).sample(drawn, count)
     ]
     del drawn, tests, seconds
@@ -314,7 +319,7 @@ def try_mutants(count: int = 200, seed: int = 0, folders: tuple[str, ...] = ("ur
                     mutant.start - source.rfind(b"\n", 0, mutant.start),
                 )
                 print(f"{mutant.file}:{mutant.line}:{column}: `{old}` -> `{mutant.text}`")
-                print(f"  not noticed by {len(chosen)} of {total} tests, {chosen[0]}", flush=True)
+                print(f"  not noticed by {sum(map(len, chosen))} of {total} tests, {chosen[0][0]}", flush=True)
             if tried.total() % 20 == 0:
                 print(f"{noticed.total()} of {tried.total()}", flush=True)
         print(f"without a change: {first_failure(copy, sorted(f for f in failures if '::' in f)) or 'all tests pass'}")
