@@ -83,17 +83,16 @@ def _transfer_impulses(a: Arrays, b: Arrays, trees: Sequence[tuple[int, int]], s
         was, now = _span(a, "tree_mimic", i), _span(b, "tree_mimic", j)
         b["memory"][2 * m + now.start : 2 * m + now.stop] = a["memory"][2 * n + was.start : 2 * n + was.stop]
     first, then = 2 * n + int(a["tree_mimic"][-1]), 2 * m + int(b["tree_mimic"][-1])
-    ends = _feature_ends(a), _feature_ends(b)
+    ends = _feature_ends(a, first), _feature_ends(b, then)
     for k, j in shapes.items():
         slots = min(ends[0][k] - int(a["shape_feature"][k]), ends[1][j] - int(b["shape_feature"][j]))
         source, goal = first + 3 * int(a["shape_feature"][k]), then + 3 * int(b["shape_feature"][j])
         b["memory"][goal : goal + 3 * slots] = a["memory"][source : source + 3 * slots]
 
 
-def _feature_ends(arrays: Arrays) -> list[int]:
-    """Return the end index of each shape's features."""
-    slots = len(arrays["memory"]) - 2 * int(arrays["tree_dof"][-1]) - int(arrays["tree_mimic"][-1])
-    last = slots // 3 - len(arrays["contact_gap"])
+def _feature_ends(arrays: Arrays, first: int) -> list[int]:
+    """Return the end index of each shape's features, which begin at an index of the memory."""
+    last = (len(arrays["memory"]) - first) // 3 - len(arrays["contact_gap"])
     return [*arrays["shape_feature"][1:].tolist(), last]
 
 
