@@ -34,6 +34,14 @@ def test_a_wrong_nodelet_or_parameter_is_reported(tmp_path, old, new, line, mess
         assert [(at, words.partition(";")[0]) for _, at, words in found(cart, "L103", "L110")] == expected
 
 
+def test_an_executable_of_another_package_is_reported(tmp_path):
+    cart = package(tmp_path / "cart", "ament_cmake", "nav2_map_server", "nav2_amcl")
+    message = "package `nav2_map_server` has no executable `amcl`; did you mean `nav2_amcl`?"
+    for name, expected in (("nav2_map_server", [("cart.launch.xml", 2, message)]), ("nav2_amcl", [])):
+        write(cart / "launch/cart.launch.xml", f'<launch>\n  <node pkg="{name}" exec="amcl"/>\n</launch>\n')
+        assert found(cart, "L103") == expected
+
+
 CONTROL = """
 from launch import LaunchDescription
 from launch.actions import ExecuteProcess, RegisterEventHandler

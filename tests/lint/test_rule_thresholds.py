@@ -110,6 +110,12 @@ UNKNOWN_SIZES = (
     + joint('<origin xyz="0 0 12"/>', type="fixed")
     + joint('<origin xyz="@"/>', type="fixed", parent="arm", child="hand")
 )
+TWINS = '<link name="base"/>' + "".join(
+    joint('<origin xyz="@"/><axis xyz="0 1 0"/>', type="continuous", child=f"{side}_wheel").replace(
+        f'<link name="{side}_wheel"/>', link(box("0.1 0.1 0.1"), name=f"{side}_wheel")
+    )
+    for side in ("left", "right")
+)
 FOLLOWER = joint('<limit lower="-1" upper="1" effort="1" velocity="1"/>') + joint(
     '<limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="to_arm" multiplier="@" offset="-0.9"/>',
     parent="arm",
@@ -123,6 +129,8 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     # inertia-triangle-inequality: notes for rounded numbers, 1e-9 to 1e-4 of the largest moment
     ("I503", link(inertial("1", "1 1 @")), {"2": "", "2.000000001": "", "2.000001": "note", "2.00019": "note"}),
     ("I503", link(inertial("1", "1 1 @")), {"2.00021": "warning", "2.001": "warning", "2.003": "error", "5": "error"}),
+    # inertia-zero: only next to a positive mass
+    ("I504", link(inertial("@", "0 0 0")), {"0": "", "-1": "", "1e-9": "error"}),
     # inertia-decimal-slip: the other moments within 1.7, the scaled one within 1.5, at most a factor of 1000
     ("I506", slip(ixx="@"), {"0.081": "", "0.072": "error", "0.028": "error", "0.025": ""}),
     ("I506", slip(izz="@"), {"0.007": "", "0.0063": "warning", "0.0032": "warning", "0.0028": ""}),
@@ -196,6 +204,8 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     ("S908", cart(more=caster("-0.3 0 @")), {"0.149": "warning", "0.151": ""}),
     # joint-origin-too-far: without sizes, more than 20 times the distance of all other joints, which is not zero
     ("J421", UNKNOWN_SIZES, {"0 0 0.59": "warning", "0 0 0.61": "", "0 0 0.04": "warning", "0 0 0": ""}),
+    # twins-misplaced: no coordinate has the wrong sign if all are zero
+    ("S909", TWINS, {"0 0 0": "", "0 1 0": "warning"}),
     # mimic-beyond-limits: at most half of the range is within the limits; a joint that does not move has no range
     ("J423", FOLLOWER, {"1": "", "3": "warning"}),
     ("J423", FOLLOWER.replace("-0.9", "2"), {"0.1": "warning", "0": ""}),

@@ -50,7 +50,7 @@ class InertiaZero(RobotRule):
         for link in model.robot.links:
             inertial = link.inertial
             inertia = inertial.inertia if inertial is not None else None
-            if inertial is None or not inertial.mass or inertial.mass < 0.0 or inertia is None:
+            if inertial is None or inertia is None or (inertial.mass or 0.0) <= 0.0:
                 continue
             if any(getattr(inertia, name) for name in COMPONENTS):
                 continue
