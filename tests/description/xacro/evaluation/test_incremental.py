@@ -195,3 +195,20 @@ def test_a_remembered_expansion_is_equal_to_a_fresh_one(seed: int, tmp_path: Pat
         assert outcome(entry, packages, texts, memory) == outcome(entry, packages, texts, None)
         if dice.random() < 0.3:
             texts = broken
+
+
+def test_calls_that_include_one_file_have_elements_of_their_own(tmp_path: Path) -> None:
+    prefix = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    include = (
+        f'{prefix}<xacro:macro name="part" params="name"><g name="${{name}}"><xacro:include filename="part.xacro"/>'
+    )
+    (tmp_path / "part.xacro").write_text(f'{prefix}<link name="a"><visual/></link></robot>')
+    entry = str(tmp_path / "arm.xacro")
+    Path(entry).write_text(text := f'{include}</g></xacro:macro><xacro:part name="x"/><xacro:part name="y"/></robot>')
+    packages, memory = Packages(near=Path(entry)), Memory()
+    for name in ("z", "w"):
+        texts = {entry: text.replace('name="y"', f'name="{name}"')}
+        root: Any = expand_leniently(entry, packages=packages, texts=texts, memory=memory).root
+        elements = list(root.walk())
+        assert [element.tag for element in elements] == ["robot", *(2 * ["g", "link", "visual"])]
+        assert len({id(element) for element in elements}) == len(elements)
