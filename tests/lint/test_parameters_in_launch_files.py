@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.lint.test_launch_mistakes import found, package, write
+from urdfkit.lint import lint
 
 NODE = """
 from launch import LaunchDescription
@@ -74,6 +75,13 @@ def test_the_parameter_of_the_planner_in_ros1(tmp_path, name):
     write(cart / "launch/move_group.launch", ROS1.format(name))
     message = "`moveit_ros_move_group` has no parameter `planning_plugins`; did you mean `planning_plugin`?"
     assert found(cart, "L110") == ([("move_group.launch", 3, message)] if name.endswith("s") else [])
+
+
+def test_the_parameters_of_a_node_without_a_package_are_unknown(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
+    text = ROS1.format("planning_plugins").replace('pkg="moveit_ros_move_group" ', "")
+    write(cart / "launch/move_group.launch", text)
+    assert [(one.code, one.line) for one in lint(cart)] == [("L109", 2)]
 
 
 SRDF = '<launch>\n  <param name="{}" textfile="$(find cart)/config/cart.srdf"/>\n</launch>\n'
