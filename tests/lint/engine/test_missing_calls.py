@@ -34,7 +34,7 @@ ROBOT = f"""{HEAD}
     [
         (None, []),
         (('  <xacro:side name="right" y="-0.2"/>\n', ""), [11]),
-        (('name="right" y', 'name="rihgt" y'), [11]),
+        (('name="right" y', 'name="rihgt" y'), [12]),
         (('reference="right_wheel"', 'reference="rear_wheel"'), [14]),
     ],
     ids=["correct", "deleted", "misspelt", "one reference"],

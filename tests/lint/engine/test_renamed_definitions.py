@@ -64,6 +64,71 @@ def test_a_renamed_definition_is_one_finding_there_and_a_misspelt_use_at_the_use
     assert [each.line for each in lint("cart.urdf.xacro", ignore=("G", "I510"))] == [line]
 
 
+PREFIXED = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="tool" value="grip"/>
+  <xacro:macro name="joint" params="prefix">
+    <link name="${prefix}elbow"/>
+    <joint name="${prefix}elbow_joint" type="fixed">
+      <parent link="base"/><child link="${prefix}elbow"/><origin xyz="0 0 ${0.3 if prefix else 0.1}"/>
+    </joint>
+    <link name="${prefix}${tool}_finger"/>
+    <joint name="${prefix}${tool}_joint" type="fixed">
+      <parent link="${prefix}elbow"/><child link="${prefix}${tool}_finger"/><origin xyz="0.1 0 0"/>
+    </joint>
+  </xacro:macro>
+  <xacro:macro name="arm" params="side"><xacro:joint prefix="${side}"/></xacro:macro>
+  <link name="base"/>
+  <xacro:arm side="left_"/>
+  <xacro:joint prefix="right_"/>
+  <link name="left_tip"/><link name="right_tip"/>
+  <joint name="left_tip_joint" type="fixed">
+    <parent link="left_grip_finger"/><child link="left_tip"/><origin xyz="0.1 0 0"/></joint>
+  <joint name="right_tip_joint" type="fixed">
+    <parent link="right_grip_finger"/><child link="right_tip"/><origin xyz="0.1 0 0"/></joint>
+  <gazebo reference="left_elbow"><mu1>1</mu1></gazebo>
+  <gazebo reference="right_elbow"><mu1>1</mu1></gazebo>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "lines"),
+    [
+        ('prefix="right_"', 'prefix="right"', [16]),
+        ('prefix="right_"', 'prefix="rigth_"', [16]),
+        ('prefix="right_"', 'prefix=""', [16]),
+        ('side="left_"', 'side="left"', [15]),  # which a macro hands on
+        ('reference="right_elbow"', 'reference="rightelbow"', [23]),
+    ],
+)
+def test_a_wrong_prefix_is_one_finding_at_the_macro_call(old, new, lines, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf.xacro").write_text(PREFIXED)
+    assert lint("arm.urdf.xacro", select=("T20", "Z80")) == []
+    (tmp_path / "arm.urdf.xacro").write_text(PREFIXED.replace(old, new))
+    assert [each.line for each in lint("arm.urdf.xacro", select=("T20", "Z80"))] == lines
+
+
+def test_a_wrong_property_in_names_is_one_finding_there(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf.xacro").write_text(PREFIXED.replace('value="grip"', 'value="gripp"'))
+    (found,) = lint("arm.urdf.xacro", select=("T20", "Z80"))
+    assert (found.line, len(found.related)) == (2, 2)
+    assert found.message == (
+        'no other place uses names with value="gripp"; did you mean "grip", '
+        "as in `left_grip_finger`, which is used but undefined?"
+    )
+
+
+def test_a_prefix_that_a_place_uses_is_right(tmp_path, monkeypatch):
+    """Two of three places have another name, so they are wrong."""
+    monkeypatch.chdir(tmp_path)
+    text = PREFIXED.replace('prefix="right_"', 'prefix="r_"')
+    text = text.replace("</robot>", '<gazebo reference="r_elbow"><mu2>1</mu2></gazebo></robot>')
+    (tmp_path / "arm.urdf.xacro").write_text(text)
+    assert 16 not in [each.line for each in lint("arm.urdf.xacro", select=("T20", "Z80"))]
+
+
 def test_the_same_slip_in_two_uses_is_reported_there(tmp_path, monkeypatch):
     """Other names have the word of the defined name, and none that of its uses."""
     monkeypatch.chdir(tmp_path)

@@ -15,6 +15,7 @@ from urdfkit.lint.engine.package_without_robot import empty_root, package_model,
 from urdfkit.lint.engine.rule_runner import RuleRunner
 from urdfkit.lint.facts.values.missing_calls import with_missing_calls
 from urdfkit.lint.facts.values.renamed_definitions import with_renamed_definitions
+from urdfkit.lint.facts.values.renaming_arguments import at_renaming_arguments
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.element_facts import ElementFacts
 from urdfkit.lint.model.model import Model
@@ -231,7 +232,8 @@ class Checker:
 
             findings, used, unused = without_suppressed(findings, model, entry, options, self.runner)
         if model.target != "urdfkit":
-            findings = at_wrong_side(with_missing_calls(with_renamed_definitions(findings, model), model))
+            findings = with_renamed_definitions(at_renaming_arguments(findings, model), model)
+            findings = at_wrong_side(with_missing_calls(findings, model))
         here = str(Path.cwd())
         related = model.related_files if model.expanded.root is not None else ()
         read = (*model.expanded.sources, *related, *(each.file for each in findings))  # such as YAML files of xacro

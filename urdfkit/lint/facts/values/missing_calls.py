@@ -37,7 +37,9 @@ def with_missing_calls(findings: list[Finding], model: Model) -> list[Finding]:
     uses: dict[Span, set[tuple[str, Span]]] = {}
     for finding in lacking:
         found = {
-            place[1]: place for name in _undefined(finding, model) for place in _calls_of_twins(name, origins, model)
+            place[1]: place
+            for name in undefined_names(finding, model)
+            for place in _calls_of_twins(name, origins, model)
         }
         if len(found) == 1:
             place = places[id(finding)] = next(iter(found.values()))
@@ -54,7 +56,7 @@ def with_missing_calls(findings: list[Finding], model: Model) -> list[Finding]:
     return changed
 
 
-def _undefined(finding: Finding, model: Model) -> set[str]:
+def undefined_names(finding: Finding, model: Model) -> set[str]:
     """Return the names of a finding that no link or joint has."""
     written = finding.suggestion.written if finding.suggestion is not None else ""
     named = {name for name in (finding.link, finding.joint, *finding.names, written) if name and "_" in name}
