@@ -184,6 +184,7 @@ def test_the_only_missing_pair_of_adjacent_links_is_reported(pairs: str, expecte
         ("", []),
         ("outer inner", ["M110 links `outer` and `inner` overlap with every joint at zero, but "]),
         ("left_arm left_tip", ["M110 links `left_arm` and `left_tip` are the counterparts of a pair that the SRDF "]),
+        ("left_arm left_hand", ["M110 links `left_arm` and `left_hand` are adjacent, but "]),
     ],
 )
 def test_pairs_of_links_that_are_not_adjacent_are_compared(left_out: str, expected: list[str], tmp_path: Path) -> None:

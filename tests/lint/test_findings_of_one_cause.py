@@ -7,6 +7,7 @@ import json
 import pytest
 
 from urdfkit.cli import main
+from urdfkit.lint import lint
 
 MANIFEST = """<package format="3"><name>arm</name><version>1.0.0</version><description>An arm.</description>
   <maintainer email="test@example.org">tester</maintainer><license>MIT</license>
@@ -73,3 +74,66 @@ def test_an_undefined_child_link_hides_the_chain_that_it_cuts(tmp_path, capsys):
     text = robot([]).replace('<child link="l3"/>', '<child link="l3x"/>')
     assert found(tmp_path, {"arm.urdf.xacro": text, "arm.srdf": SRDF}, "M105", capsys) == []
     assert len(found(tmp_path, {"arm.urdf.xacro": text, "arm.srdf": SRDF}, "T202", capsys)) == 1
+
+
+def codes(folder):
+    return [f"{one.code}:{one.line} {one.message}" for one in lint(folder)]
+
+
+def test_a_macro_that_inserts_another_block_than_its_own_is_one_finding(tmp_path):
+    path = tmp_path / "mast.xacro"
+    text = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="base"/>
+  <xacro:macro name="frame" params="name *origin">
+    <link name="${name}"/>
+    <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/>
+      <xacro:insert_block name="origin"/></joint>
+  </xacro:macro>
+  <xacro:frame name="top"><origin xyz="0 0 0.4"/></xacro:frame>
+</robot>"""
+    path.write_text(text)
+    assert codes(path) == []
+    path.write_text(text.replace('block name="origin"', 'block name="mount"'))
+    assert codes(path) == ["X107:6 block `mount` is not defined; did you mean `origin`?"]
+    path.write_text(text.replace('<xacro:insert_block name="origin"/>', ""))
+    assert codes(path) == ["X128:3 macro `frame` never inserts its block `origin`"]
+
+
+@pytest.mark.parametrize("is_passed", [True, False])
+def test_a_missing_file_in_an_argument_is_reported_where_the_launch_file_passes_it(tmp_path, is_passed):
+    folder = tmp_path / "arm"
+    written = "$(arg file)" if is_passed else "$(find arm)/config/missing.yaml"
+    robot = f"""<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="file" default="$(find arm)/config/arm.yaml"/>
+  <link name="base"/>
+  <gazebo><plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+    <parameters>{written}</parameters>
+  </plugin></gazebo>
+</robot>"""
+    launch = """from launch import LaunchDescription
+from launch.substitutions import Command, FindExecutable, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    file = PathJoinSubstitution([FindPackageShare("arm"), "config", "missing.yaml"])
+    robot = PathJoinSubstitution([FindPackageShare("arm"), "arm.urdf.xacro"])
+    description = Command([FindExecutable(name="xacro"), " ", robot, " file:=", file])
+    return LaunchDescription(
+        [
+            Node(
+                package="robot_state_publisher",
+                executable="robot_state_publisher",
+                parameters=[{"robot_description": description}],
+            )
+        ]
+    )
+"""
+    (folder / "config").mkdir(parents=True)
+    (folder / "config/arm.yaml").write_text("controller_manager:\n  ros__parameters:\n    update_rate: 100\n")
+    (folder / "package.xml").write_text(MANIFEST.replace("effort_controllers", "gz_ros2_control"))
+    (folder / "arm.urdf.xacro").write_text(robot)
+    (folder / "arm.launch.py").write_text(launch)
+    found = sorted({one.code for one in lint(folder) if one.code in ("K958", "Z828")})
+    assert found == (["K958"] if is_passed else ["K958", "Z828"])

@@ -24,6 +24,24 @@ CASES = {
         True,
     ),
     "flag of a publisher": (finding("K971", "`flag` is false, but true"), finding("K985", "flag is false"), True),
+    "unit and type": (finding("K970", "`wheelbase` is 1100 m"), finding("K974", "an integer"), True),
+    "state of the other group": (
+        finding("M107", "joints of another group", kind="foreign"),
+        finding("M106", "duplicate state"),
+        True,
+    ),
+    "value beyond a limit": (finding("M107", "beyond the limit"), finding("M106", "duplicate state"), False),
+    "parameter of the SRDF": (finding("L110", "not from `a`"), finding("L104", "unknown name", kind="name"), True),
+    "package": (
+        finding("K973", "named `a`", kind="name", names=("a", "b")),
+        finding("M111", "unknown package `b`", 9, names=("b",)),
+        True,
+    ),
+    "other package": (
+        finding("K973", "named `a`", kind="name", names=("a", "b")),
+        finding("M111", "unknown package `c`", 9, names=("c",)),
+        False,
+    ),
     "other line": (
         finding("E014", "<mass> has no attribute `value`", kind="attribute"),
         finding("E007", "text", 2),

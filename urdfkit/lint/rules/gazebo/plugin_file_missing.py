@@ -54,7 +54,12 @@ class PluginFileMissing(RobotRule):
                 except ResourceError as error:
                     message, severity = _described(Path(text)) or (error.message, "note")
                     if severity == "warning" or any(spec.kind == "ros2_control" for spec in specs(plugin)):
-                        yield self.at(model, element, message, severity=severity)
+                        tag = model.tag(element.origin.position)
+                        written = model.document(element.origin.position.file).source.text
+                        is_passed = tag is not None and "$(arg" in written[tag.end : tag.close_end]
+                        kind = "argument" if is_passed else ""
+                        names = (Path(text).name,)
+                        yield self.at(model, element, message, severity=severity, kind=kind, names=names)
 
 
 def _described(path: Path) -> tuple[str, Severity] | None:

@@ -78,7 +78,7 @@ class MoveitConfigurationMissing(RobotRule):
         stems = [name.partition("_moveit")[0] for name in (builder.package, near or "")]
         if near is not None and (stems[0] == stems[1] or is_slip(builder.package, near)):
             message = f"unknown package `{builder.package}`" + Suggestion(near, builder.package)
-            yield self.at_span(builder.place, message)
+            yield self.at_span(builder.place, message, names=(builder.package,))
             return
         names = robot_names(model)
         if any(re.fullmatch(name, builder.robot) for name in names):

@@ -66,17 +66,19 @@ class SrdfAdjacentPairMissing(RobotRule):
             disabled = {frozenset(_links(pair)): pair for pair in root.find_all("disable_collisions")}
             mentioned = {link for pair in disabled for link in pair}
             every = {link.name for link in model.robot.links if link.collisions}
-            for missed, near, reason in (*overlapping(model, disabled), *unlike_other_side(model, disabled)):
-                if any(len(each) < 2 or not each <= links for each in disabled):
-                    break  # Other rules report a pair that names one link twice, or a link that does not exist.
-                message = f"links `{missed[0]}` and `{missed[1]}` {reason}, but their collisions are not disabled"
-                help = f'add <disable_collisions link1="{missed[0]}" link2="{missed[1]}" reason="Default"/>'
-                yield self.at(model, near, message, help=help, severity=severity_for(root, model), names=missed)
             adjacent, missing = _adjacent(model, every, disabled)
             if len(missing) != 1 or len(adjacent) < _MIN_PAIRS:
                 adjacent, missing = _adjacent(model, every & mentioned, disabled)
             if len(adjacent) < (1 + _MIN_SHARE) * len(missing):
-                continue
+                missing = []
+            for missed, near, reason in (*overlapping(model, disabled), *unlike_other_side(model, disabled)):
+                if any(len(each) < 2 or not each <= links for each in disabled):
+                    break  # Other rules report a pair that names one link twice, or a link that does not exist.
+                if any(pair == frozenset(missed) for _, pair in missing):
+                    continue
+                message = f"links `{missed[0]}` and `{missed[1]}` {reason}, but their collisions are not disabled"
+                help = f'add <disable_collisions link1="{missed[0]}" link2="{missed[1]}" reason="Default"/>'
+                yield self.at(model, near, message, help=help, severity=severity_for(root, model), names=missed)
             # Other rules report a pair that names one link twice, or a link that does not exist.
             wrong = [each for each in disabled if len(each) < 2 or not each <= links]
             missing = [(joint, pair) for joint, pair in missing if not any(pair & each for each in wrong)]

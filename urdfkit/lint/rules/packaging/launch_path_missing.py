@@ -87,7 +87,7 @@ class LaunchPathMissing(RobotRule):
     def _missing(self, reference: PackagePath, span: Span, hint: str) -> Finding:
         message = f"`{reference.path}` does not exist in package `{reference.package}`" + hint
         severity = "error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity
-        return self.at_span(span, message, severity=severity)
+        return self.at_span(span, message, severity=severity, names=(Path(reference.path).name,))
 
 
 def _exists(package: Path, path: str, model: Model) -> bool:

@@ -37,11 +37,13 @@ class BlockNeverInserted(SourceRule):
 
     def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each block parameter without a use."""
+        undefined = [fault.position for fault in model.expanded.faults if fault.kind == "undefined-block"]
+        offsets = [document.source.offset(at.line, at.column) for at in undefined if at.file == document.source.file]
         for macro in document.walk() if "*" in document.source.text else ():
             params = macro.attributes.get("params") if macro.name.rpartition(":")[2] == "macro" else None
             blocks = [word for word in params.value.split() if word.startswith("*")] if params is not None else []
-            if not blocks:
-                continue
+            if not blocks or any(macro.start < offset < macro.close_end for offset in offsets):
+                continue  # X107 reports that the macro inserts another block
             inserted = {
                 tag.attributes["name"].value
                 for tag in macro.walk()

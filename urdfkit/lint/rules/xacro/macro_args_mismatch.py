@@ -1,6 +1,8 @@
 """X107 macro-args-mismatch."""
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.xacro.faults import Fault
+from urdfkit.lint.finding import suggestion_of
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule, Findings, Model
 
@@ -37,6 +39,11 @@ class MacroArgsMismatch(FaultRule):
             position = model.expanded.macros[fault.name or ""].position
             message = f"macro `{fault.name}` inserts the block `{block}`, but its parameter lacks the asterisk"
             yield self.at(model, position, message, attribute="params", help=f"write `*{block}` in params")
+            return
+        if (block := _only_unused_block(fault, model)) is not None and not suggestion_of(fault.message):
+            message, name = f"block `{fault.name}` is not defined", fault.name or ""
+            names = (name,)
+            yield self.at(model, fault, message + Suggestion(block, name), attribute=fault.attribute, names=names)
             return
         unknown, missing = self._mismatched_parameters(fault, model)
         if not unknown or not missing:
@@ -82,3 +89,19 @@ class MacroArgsMismatch(FaultRule):
             unknown += other.details.get("unknown", ())
             missing += other.details.get("missing", ())
         return unknown, missing
+
+
+def _only_unused_block(fault: Fault, model: Model) -> str | None:
+    """Return the block of a macro that it does not insert, if it inserts another, undefined block instead."""
+    tag = model.tag(fault.position) if fault.kind == "undefined-block" else None
+    macro = next((each for each in tag.ancestors() if each.name == "xacro:macro"), None) if tag is not None else None
+    if macro is None or "params" not in macro.attributes:
+        return None
+    inserted = {
+        each.attributes["name"].value
+        for each in macro.walk()
+        if each.name == "xacro:insert_block" and "name" in each.attributes
+    }
+    words = (word.partition(":=")[0] for word in macro.attributes["params"].value.split() if word.startswith("*"))
+    unused = [word.lstrip("*") for word in words if word.lstrip("*") not in inserted]
+    return unused[0] if len(unused) == 1 else None
