@@ -179,6 +179,8 @@ MIMIC = """<robot name="arm"><link name="hand"/><link name="a"/><link name="b"/>
     ("words", "lines"),
     [
         ("An arm in Gazebo Harmonic.", [7]),
+        ("Uses default_planning_request_adapters/CheckStartStateBounds.", [7]),
+        ("Uses default_planner_request_adapters/FixStartStateBounds.", []),
         ("An arm for ROS 2 Humble and Jazzy.", []),
         ("An arm.", []),
     ],

@@ -10,9 +10,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.lint.model.model import Model
 
-_FROM_JAZZY = r"(?i)\b(?:jazzy|kilted|lyrical|harmonic|ionic|jetty)\b"
-_BEFORE_JAZZY = r"(?i)\b(?:foxy|galactic|humble|iron|fortress|garden)\b"
-"""Match the releases since ROS 2 Jazzy and Gazebo Harmonic, and those before (REP-2000)."""
+_FROM_JAZZY = r"(?i)\b(?:jazzy|kilted|lyrical|harmonic|ionic|jetty|default_planning_request_adapters)\b"
+_BEFORE_JAZZY = r"(?i)\b(?:foxy|galactic|humble|iron|fortress|garden|default_planner_request_adapters)\b"
+"""Match the releases since ROS 2 Jazzy and Gazebo Harmonic, and those before (REP-2000).
+
+MoveIt's package of request adapters has another name since Jazzy (moveit2, MIGRATION.md).
+"""
 
 
 def is_since_jazzy(model: Model) -> bool:
