@@ -124,9 +124,11 @@ def test_units_and_nodes_of_collada_apply(before: str, space: str, tmp_path: Pat
     [
         ('<input semantic="VERTEX" source="#v" offset="0"/>', ""),
         (r'(count="18000">)[^<]*', r"\g<1>@7"),
+        (r'(count="18000">)[^<]*', r"\g<1>@0"),
+        (r'<\?xml version="1.0"', r'\g<0> encoding="foo"'),
         (r'(count="18000">)[^<]*', r"\g<1>" + 40_000 * "1"),
     ],
-    ids=["no vertices", "placeholder", "one number"],
+    ids=["no vertices", "unknown placeholder", "placeholder of another text", "encoding", "one number"],
 )
 def test_damaged_collada_files_are_left_to_a_full_reader(old: str, new: str, tmp_path: Path) -> None:
     path = tmp_path / "part.dae"
@@ -149,11 +151,12 @@ def test_vertices_that_are_no_numbers_are_found_in_collada_files(word: str, coun
     assert (contents(path).fault == NOT_FINITE) == (word != "1.5")
 
 
-def test_pictures_are_named_in_the_contents_of_a_collada_file(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["wood.png", "w" * 600 + ".png"], ids=["short", "long"])
+def test_pictures_are_named_in_the_contents_of_a_collada_file(name: str, tmp_path: Path) -> None:
     path = tmp_path / "part.dae"
-    image = "<library_images><image><init_from> wood.png </init_from></image></library_images><library_geometries>"
+    image = f"<library_images><image><init_from> {name} </init_from></image></library_images><library_geometries>"
     path.write_text(collada(np.zeros((600, 3)), "").replace("<library_geometries>", image))
-    assert contents(path).pictures == ("wood.png",)
+    assert contents(path).pictures == (name,)
 
 
 def test_a_changed_file_is_read_again(tmp_path: Path) -> None:

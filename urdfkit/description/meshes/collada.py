@@ -33,6 +33,9 @@ _UNUSUAL = re.compile(
     rb"<!DOCTYPE|<!ENTITY|<\w*:?(?:instance_node|instance_controller|lookat|skew|trifans|tristrips|morph|lines\w*)\b"
 )
 _PICTURE = re.compile(rb"<init_from>\s*([^<]+?)\s*</init_from>")
+_PLACEHOLDER = re.compile(rb">\s*@\d")
+"""Matches the placeholder of a long text, and a short text that looks like one."""
+
 _MOST_NODES = 20_000
 
 
@@ -67,7 +70,9 @@ def contents(path: Path) -> Contents:
     """Return the contents of a file. Each rule that needs some of them gets them from one reading."""
     content = path.read_bytes()
     outline = outline_of(content)
-    pictures = tuple(name.decode(errors="replace") for name in _PICTURE.findall(outline.skeleton))
+    names = _PICTURE.findall(outline.skeleton)
+    names = [content[slice(*outline.texts[name])] if name in outline.texts else name for name in names]
+    pictures = tuple(name.decode(errors="replace").strip() for name in names)
     try:
         shapes, unit = _shapes(outline)
     except UnusualFileError:
@@ -105,7 +110,8 @@ def _shapes(outline: Outline) -> tuple[tuple[tuple[_Positions, AffineTransform],
     """Return the positions of each geometry in the scene, with the transform of its node, and the unit."""
     from xml.etree.ElementTree import ParseError, fromstring
 
-    if _UNUSUAL.search(outline.skeleton):
+    is_ambiguous = len(_PLACEHOLDER.findall(outline.skeleton)) > len(outline.texts)
+    if is_ambiguous or _UNUSUAL.search(outline.skeleton):
         raise UnusualFileError
     try:
         root = fromstring(outline.skeleton)
@@ -116,7 +122,7 @@ def _shapes(outline: Outline) -> tuple[tuple[tuple[_Positions, AffineTransform],
             for geometry, transform in _instances(named[instance.attrib["url"]])
             for positions in _positions(named[geometry], named, outline)
         ]
-    except (ParseError, KeyError, ValueError, StopIteration, RuntimeError) as error:
+    except (ParseError, LookupError, ValueError, StopIteration, RuntimeError) as error:
         raise UnusualFileError from error
     return tuple(shapes), _unit(root)
 
