@@ -358,6 +358,8 @@ def test_the_paths_of_the_setup_assistant_exist_unless_the_builder_replaces_them
         ('.joint_limits(filepath="config/limits.yaml")', "has no argument `filepath`; did you mean `file_path`?"),
         ('.joint_limits(file_path="config/limits.yaml").planning_pipelines(pipelines=["ompl", "own"])', ""),
         (".joint_limits(file_path=computed)", ""),
+        ('.robot_description_kinematics("config/limits.yaml")', "has no `kinematics_solver`"),
+        ('.joint_limits("config/own_planning.yaml")', "has no `joint_limits`, which `joint_limits` reads"),
     ],
 )
 def test_the_methods_of_the_moveit_builder_are_checked(source, call, message):

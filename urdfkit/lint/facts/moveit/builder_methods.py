@@ -1,10 +1,11 @@
-"""Methods of ``MoveItConfigsBuilder`` that launch files call: misspelt methods, and files that do not exist.
+"""Methods of ``MoveItConfigsBuilder`` that launch files call: misspelt methods, and missing or exchanged files.
 
 Source: moveit_configs_utils, moveit_configs_builder.py (Humble to Rolling): a file is relative to the MoveIt package; a
 planning pipeline has the file ``config/<pipeline>_planning.yaml``, or one of moveit_configs_utils.
 """
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -34,6 +35,8 @@ _KEYWORDS = {
         ("robot_description_kinematics", "joint_limits", "pilz_cartesian_limits", "sensors_3d"), "file_path"
     ),
 }
+_CONTENTS = {"robot_description_kinematics": "kinematics_solver", "joint_limits": "joint_limits"}
+"""Method → key that its file must have (moveit_configs_utils, moveit_configs_builder.py)."""
 _PIPELINES = ("chomp", "ompl", "pilz_industrial_motion_planner", "stomp")
 """Pipelines with a file in moveit_configs_utils."""
 
@@ -77,6 +80,7 @@ def wrong_methods(
         file = words.get("file_path", node.args[0] if node.args else None)
         if method in _FILES and file is not None:
             yield from _file(source, file, folder, reader, model)
+            yield from _content(source, file, method, folder, reader, model)
         elif method == "planning_pipelines":
             default, names = (words.get(each) for each in ("default_planning_pipeline", "pipelines"))
             positional = [*node.args, None, None]
@@ -119,6 +123,19 @@ def _file(
     if path and not path.startswith(("/", "~")) and not model.expanded.packages.whereabouts(folder / path):
         message = f"`{path}` does not exist in package `{folder.name}`" + near_path(folder / path)
         yield source.span(*place(source, node)), message
+
+
+def _content(
+    source: Source, node: ast.expr, method: str, folder: Path, reader: LaunchReader, model: Model
+) -> Iterator[tuple[Span, str]]:
+    """Yield the path of a file without the key that the method reads, such as that of another method."""
+    path, key = _relative(node, reader), _CONTENTS.get(method)
+    if not path or path.startswith(("/", "~")) or key is None:
+        return
+    wanted = str((folder / path).resolve())
+    texts = [file.text for name, file in model.related_files.items() if str(Path(name).resolve()) == wanted]
+    if texts and not any(re.search(rf"\b{key}\b", text) for text in texts):
+        yield source.span(*place(source, node)), f"`{path}` has no `{key}`, which `{method}` reads"
 
 
 def _relative(node: ast.expr, reader: LaunchReader) -> str:
