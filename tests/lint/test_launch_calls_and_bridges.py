@@ -262,3 +262,44 @@ def generate_launch_description():
     for listed, expected in ((f"{with_user}, {without}", [3]), (with_user, [])):
         write(cart / "launch/sim.launch.py", text.replace("[{}]", f"[{listed}]"))
         assert [line for _, line, _ in found(cart, "L121")] == expected
+
+
+INCLUDES = """<launch>
+<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"/>
+<include file="$(find-pkg-share cart)/launch/moves.launch.py">
+<arg name="use_sim_time" value="true"/>
+</include>
+<include file="$(find-pkg-share cart)/launch/sees.launch.py">
+<arg name="use_sim_time" value="true"/>
+</include>
+</launch>
+"""
+INCLUDED = """from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    times = {"use_sim_time": LaunchConfiguration("use_sim_time")}
+    return LaunchDescription([
+        DeclareLaunchArgument("use_sim_time", default_value="DEFAULT"),
+        Node(package="joy", executable="joy_node", parameters=[times]),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("place", "default", "expected"), [(1, "false", [3]), (2, "false", []), (1, "true", []), (0, "false", [])]
+)
+def test_an_include_without_the_clock_next_to_gazebo(tmp_path, place, default, expected):
+    """A value that an earlier include passes holds for later ones, so only an include before it has the default."""
+    cart = package(tmp_path / "cart", "ament_cmake", "joy", "launch_ros", "ros_gz_sim")
+    parts = INCLUDES.split('<arg name="use_sim_time" value="true"/>\n')
+    texts = ['<arg name="use_sim_time" value="true"/>\n'] * 2
+    if place:
+        texts[place - 1] = ""
+    write(cart / "launch/all.launch.xml", parts[0] + texts[0] + parts[1] + texts[1] + parts[2])
+    for name in ("moves", "sees"):
+        write(cart / f"launch/{name}.launch.py", INCLUDED.replace("DEFAULT", default))
+    assert [line for _, line, _ in found(cart, "L121")] == expected

@@ -57,6 +57,7 @@ def generate_launch_description():
     return LaunchDescription([
         DeclareLaunchArgument("mode", default_value="a"),
         DeclareLaunchArgument("speed", default_value="1"),
+        DeclareLaunchArgument("quiet", default_value="true"),
         Node(package="joy", executable="joy_node", parameters=[common, {"rate": LaunchConfiguration("speed")}]),
     ])
 """
@@ -128,6 +129,11 @@ def test_a_mistake_has_one_finding_at_its_line(tmp_path, old, new, line, message
     ("old", "new", "message"),
     [
         ("[common, ", "[[common], ", "this list of parameters is inside of another list; write `*` before it"),
+        (
+            '{"rate": LaunchConfiguration("speed")}',
+            'LaunchConfiguration("quiet")',
+            "an item of `parameters` is the value",
+        ),
         ('LaunchConfiguration("mode")', '"mode"', "this is the text `mode`, not the value with this name; write it "),
     ],
 )

@@ -10,9 +10,10 @@ from urdfkit.description.launch.python_constants import launch_reader, name_of, 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import Node, start_of
-from urdfkit.lint.facts.launch.actions import actions_of, all_elements
+from urdfkit.lint.facts.launch.actions import actions_of, all_elements, launch_files
 from urdfkit.lint.facts.launch.python.names import python_files
 from urdfkit.lint.facts.launch.receivers import actions_at, receiver
+from urdfkit.lint.facts.launch.records import LaunchActions
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.navigation.tables import NODES
@@ -130,6 +131,36 @@ def time_without_simulation(model: Model) -> Defects:
                     if is_key and isinstance(value, ast.Constant) and str(value.value).lower() == "true":
                         message = f"`{_KEY}` is true, but this file starts no simulation, so the time stays at zero"
                         yield source, place(source, value), message
+
+
+def included_without_clock(model: Model) -> Defects:
+    """Yield the includes of files in which `use_sim_time` is false by default, if Gazebo and others get it.
+
+    An argument that an earlier include passes holds for those after it, too (launch, include_launch_description.py).
+    """
+    for actions in launch_files(model):
+        source = actions.source
+        passing = [call for call in actions.includes if any(name.name == _KEY for name in call.passed)]
+        if not passing or _KEY in actions.declared or any(word in source.text for word in _FOR_ALL):
+            continue
+        if reads_ros1(source) or not _starts_gazebo(source, model):
+            continue
+        for call in actions.includes:
+            path = None if call.passes_all or call.is_conditional else receiver(call, model)
+            if call.start >= min(each.start for each in passing) or path is None:
+                continue
+            included = actions_at(path, model)
+            if included is not None and _is_off(included) and not _starts_gazebo(included.source, model):
+                message = f"{path.name} is included without `{_KEY}`, which is false there, but this file starts Gazebo"
+                yield source, (call.start, call.end), message
+
+
+def _is_off(actions: LaunchActions) -> bool:
+    default = actions.defaults.get(_KEY)
+    if default is None:
+        found = re.search(rf"[\"']{_KEY}[\"'],\s*default_value\s*=\s*[\"'](\w+)[\"']", actions.source.text)
+        default = found[1] if found is not None else ""
+    return _KEY in actions.declared and default.lower() == "false"
 
 
 _CLOCKS = r"gazebo|gz_|ign_|_gz|webots|isaac|clock|rosbag|bag|simul(?!ated)"

@@ -12,7 +12,8 @@ class SimulationTimeInconsistent(RobotRule):
     Checks ROS 2 launch files. Reports filters, localization, navigation servers and ``robot_state_publisher`` without
     ``use_sim_time`` if another node of the same package in the file sets it. Also reports filters, localization,
     navigation servers, ``move_group`` and servo nodes without it if ``robot_state_publisher`` or RViz sets it. In files
-    that always start Gazebo, also reports such nodes and included launch files if their ``use_sim_time`` is false.
+    that always start Gazebo, also reports such nodes and included launch files if their ``use_sim_time`` is false, and
+    includes without it if its default is false and another include of the file passes it.
     Parameter files are read too. Launch files that set the parameter for all nodes are not checked.
 
     ## Why is this bad?
@@ -39,7 +40,11 @@ class SimulationTimeInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node with another clock."""
-        from urdfkit.lint.facts.nodes.simulation_time import computer_time, time_without_simulation, without_clock
+        from urdfkit.lint.facts.nodes import simulation_time as times
 
-        for source, place, message in (*without_clock(model), *computer_time(model), *time_without_simulation(model)):
+        kinds = (
+            *(times.without_clock, times.computer_time, times.time_without_simulation),
+            times.included_without_clock,
+        )
+        for source, place, message in (each for defects in kinds for each in defects(model)):
             yield self.at_span(source.span(*place), message)

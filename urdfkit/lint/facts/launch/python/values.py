@@ -56,10 +56,11 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
     """Yield the place and message of each value of the wrong kind."""
     reader, classes = launch_reader(tree), launch_classes(tree)
     created = {name for name, kind in classes.items() if kind in ACTIONS}
+    flags = set(_flags(tree, reader))
     found: Iterable[tuple[ast.expr, str]]
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (kind := class_called(node, classes)):
-            found = _of_call(node, kind, reader)
+            found = (*_of_call(node, kind, reader), *_flags_as_files(node, kind, flags, reader))
         elif isinstance(node, (ast.Compare, ast.If, ast.IfExp)):
             found = _compared(node, reader)
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and called(node.func, reader) in created:
@@ -83,6 +84,27 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             continue
         yield from ((place(source, at), message) for at, message in found)
     yield from ((place(source, at), message) for at, message in quoted_names(source))
+
+
+def _flags(tree: ast.Module, reader: LaunchReader) -> Iterator[str]:
+    """Yield the launch arguments whose default is true or false."""
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call) and name_of(call.func) == "DeclareLaunchArgument" and call.args:
+            default = next((word.value for word in call.keywords if word.arg == "default_value"), None)
+            if default is not None and (reader.text(default) or "").lower() in ("true", "false"):
+                yield reader.text(call.args[0]) or ""
+
+
+def _flags_as_files(call: ast.Call, kind: str, flags: set[str], reader: LaunchReader) -> Defects:
+    """Yield the launch arguments that are true or false among the files of ``parameters``."""
+    words = {word.arg: word.value for word in call.keywords}
+    for item in reader.items(words.get("parameters")) if flags and kind in _NODES else ():
+        value = value_of(item, reader)
+        named = value.args[0] if isinstance(value, ast.Call) and value.args else None
+        name = reader.text(named) if named is not None and called(item, reader) == "LaunchConfiguration" else None
+        if name in flags:
+            message = f"an item of `parameters` is the value of `{name}`, which is no file; write {{'{name}': …}}"
+            yield item, message
 
 
 def _is_text(node: ast.expr) -> bool:
