@@ -150,6 +150,38 @@ def test_names_of_frames_and_topics_are_no_values_in_quotes(tmp_path):
     assert [each for each in found(cart(tmp_path, other=other), "L106") if "text `mode`" in each[2]] == []
 
 
+@pytest.mark.parametrize(
+    "old_and_new",
+    [
+        (
+            '    mode = LaunchConfiguration("mode").perform(context).lower()',
+            '    mode = context.launch_configurations["mode"]',
+        ),
+        ("[name, ", '[["cart", name], '),
+        ("import os\n", 'import os\n\nAXES = list("xyz")\n'),
+        ("(name, *more)", "(name, *more, size=None)\n\n\nSIZES = {'value': 'size'}\n\n\ndef tools(name, *more)"),
+    ],
+)
+def test_names_in_indices_keys_and_joined_texts_are_accepted(tmp_path, old_and_new):
+    assert LAUNCH.count(old_and_new[0]) == 1
+    assert found(cart(tmp_path, LAUNCH.replace(*old_and_new)), *CODES) == []
+
+
+@pytest.mark.parametrize(
+    ("reading", "is_reported"),
+    [
+        ("", True),
+        ('LaunchConfiguration(name) for name in ("mode", "speed")', False),
+        ('context["mode"]', False),
+    ],
+)
+def test_a_text_is_not_the_value_of_an_argument_that_code_reads(tmp_path, reading, is_reported):
+    other = OTHER.replace('LaunchConfiguration("mode")', '"mode"').replace(
+        "    return", f"    _ = [{reading}]\n    return"
+    )
+    assert bool(found(cart(tmp_path, other=other), "L106")) == is_reported
+
+
 XML = """<launch>
   <arg name="map" default="hall.yaml"/>
   <node pkg="joy" exec="joy_node" name="joy_node">
@@ -174,6 +206,16 @@ def test_the_name_of_an_unused_argument_is_a_forgotten_substitution(tmp_path, na
     folder = cart(tmp_path)
     write(folder / "launch/joy.launch.xml", XML.format(name=name, value=value, path="config/joy.yaml"))
     assert [text for _, _, text in found(folder, "L110")] == ([message] if message else [])
+
+
+def test_arguments_in_expressions_are_used(tmp_path):
+    folder = package(tmp_path / "cart", "catkin", "joy")
+    node = '<node pkg="joy" type="joy_node" name="joy"{}><param name="dev" value="map"/></node>'
+    text = f'<launch>\n<arg name="map" default="a"/>\n{node}\n</launch>\n'
+    write(folder / "launch/joy.launch", text.format(""))
+    assert [line for _, line, _ in found(folder, "L110")] == [3]
+    write(folder / "launch/joy.launch", text.format(""" if="$(eval 'a' if map else 'b')\""""))
+    assert found(folder, "L110") == []
 
 
 @pytest.mark.parametrize(

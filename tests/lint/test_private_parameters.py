@@ -66,14 +66,65 @@ def test_other_code_can_read_a_global_parameter(tmp_path):
     assert found(cart, "L110") == []
 
 
-@pytest.mark.parametrize(("node", "is_reported"), [("ekf", True), ("ekf_node", False)])
-def test_a_section_with_the_name_of_its_node_is_loaded_outside_of_the_node(tmp_path, node, is_reported):
-    cart = package(tmp_path / "cart", "catkin", "cart_filters")
+def test_other_code_can_read_a_parameter_of_a_namespace(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "rospy")
+    write(cart / "scripts/talker.py", CODE.replace("{rate}", "~rate"))
+    launch = LAUNCH.format(args="", inside="", outside=RATE)
+    launch = launch.replace("<launch>", '<launch><group ns="a">').replace("</launch>", "</group></launch>")
+    write(cart / "launch/cart.launch", launch)
+    assert [line for _, line, _ in found(cart, "L110")] == [6]
+    write(cart / "scripts/listener.py", CODE.replace("{rate}", "/a/rate"))
+    assert found(cart, "L110") == []
+
+
+def test_a_node_of_another_workspace_can_read_a_global_parameter(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "rospy", "cart_driver", "joy")
+    write(cart / "scripts/talker.py", CODE.replace("{rate}", "~rate"))
+    node = '<node pkg="joy" type="driver" name="driver"/>'
+    write(cart / "launch/cart.launch", LAUNCH.format(args="", inside="", outside=RATE + node))
+    assert [line for _, line, _ in found(cart, "L110")] == [6]
+    node = node.replace("joy", "cart_driver")
+    write(cart / "launch/cart.launch", LAUNCH.format(args="", inside="", outside=RATE + node))
+    assert found(cart, "L110") == []
+
+
+@pytest.mark.parametrize(
+    ("code", "is_reported"),
+    [
+        ("import json\n", True),
+        ("from cart.core import Core\n", False),
+        ('def parameter(name):\n    return rospy.get_param("~%s" % name)\n', False),
+    ],
+)
+def test_imported_code_and_functions_can_read_private_parameters(tmp_path, code, is_reported):
+    cart = package(tmp_path / "cart", "catkin", "rospy")
+    write(cart / "scripts/talker.py", code + CODE.replace("{rate}", "/rate"))
+    write(cart / "src/cart/core.py", 'import rospy\nrate = rospy.get_param("~rate")\n')
+    write(cart / "launch/cart.launch", LAUNCH.format(args="", inside=RATE, outside=""))
+    assert [line for _, line, _ in found(cart, "L110")] == [4] * is_reported
+
+
+@pytest.mark.parametrize(
+    ("package_name", "node", "code", "is_reported"),
+    [
+        ("robot_localization", "ekf", "", True),
+        ("robot_localization", "ekf_node", "", False),
+        ("costmap_2d", "ekf", "", False),
+        ("cart", "ekf", 'ros::init(argc, argv, "ekf"); ros::NodeHandle node("~");', True),
+        ("cart", "ekf", 'ros::NodeHandle node("~"), filter(node, "ekf");', False),
+        ("cart", "ekf", 'ros::NodeHandle node("~"); node.getParam("ekf", values);', False),
+    ],
+)
+def test_a_section_with_the_name_of_its_node_is_loaded_outside_of_the_node(
+    tmp_path, package_name, node, code, is_reported
+):
+    cart = package(tmp_path / "cart", "catkin", "costmap_2d", "robot_localization")
+    write(cart / "src/ekf.cpp", code)
     write(cart / "config/ekf.yaml", "ekf:\n  rate: 5\n")
     inside = FILE.replace("talker", "ekf")
     write(
         cart / "launch/cart.launch",
-        f'<launch>\n<node pkg="cart_filters" type="ekf" name="{node}">\n{inside}\n</node>\n</launch>\n',
+        f'<launch>\n<node pkg="{package_name}" type="ekf" name="{node}">\n{inside}\n</node>\n</launch>\n',
     )
     message = "the only section of ekf.yaml is `ekf`, so its parameters are in `/ekf/ekf`; load it outside of the node"
     assert found(cart, "L110") == ([("cart.launch", 3, message)] if is_reported else [])
@@ -85,3 +136,10 @@ def test_parameters_of_amcl_are_private(tmp_path):
     write(cart / "launch/cart.launch", f'<launch><node pkg="amcl" type="amcl" name="amcl"/>\n{outside}</launch>')
     [(_, line, message)] = found(cart, "L110")
     assert (line, message.partition(",")[0]) == (2, "node `amcl` reads its private parameter `min_particles`")
+
+
+def test_other_nodes_can_read_global_names_of_frames(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "amcl", "cart_driver")
+    nodes = '<node pkg="amcl" type="amcl" name="amcl"/><node pkg="cart_driver" type="driver" name="driver"/>'
+    write(cart / "launch/cart.launch", f'<launch>{nodes}<param name="base_frame_id" value="base"/></launch>')
+    assert found(cart, "L110") == []

@@ -132,6 +132,12 @@ def share_of(text: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else ("", "")
 
 
+def is_used(name: str, file: LaunchActions) -> bool:
+    """Return whether a launch file uses an argument, also in a Python expression."""
+    expression = rf"\$\(eval\b[^<]*(?<!\w){re.escape(name)}(?!\w)"
+    return any(name == use.name for use, _ in file.used) or re.search(expression, file.source.text) is not None
+
+
 def _read(action: LaunchAction, found: LaunchActions, is_conditional: bool) -> None:
     at, tag = action.attributes, action.tag
     is_conditional |= "if" in at or "unless" in at

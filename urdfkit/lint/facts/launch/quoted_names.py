@@ -9,7 +9,7 @@ from functools import lru_cache
 
 from urdfkit.description.launch.python_constants import assignments, name_of
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.launch.actions import actions_of
+from urdfkit.lint.facts.launch.actions import actions_of, is_used
 from urdfkit.lint.model.tags import Attribute, Document
 
 _VALUES = ("LaunchConfiguration", "PathJoinSubstitution", "join", "get_package_share_directory", "FindPackageShare")
@@ -22,29 +22,54 @@ def quoted_names(source: Source) -> Iterator[tuple[ast.expr, str]]:
     """Yield the place and message of each text in a Python launch file that is the name of an unused variable.
 
     Such a text is a value in a dictionary, or an item of a list in it or of arguments. Variables are parameters of
-    functions and names of launch arguments and paths; launch arguments that no code uses count too.
+    functions and names of launch arguments and paths; launch arguments that no code uses count too. The name of a
+    parameter of a function is expected in lists, and in dictionaries as the value of the key with the same name.
     """
     tree = _parsed(source.text)
     nodes = list(ast.walk(tree)) if tree is not None else []
     assigned = {name for node in nodes for name in _bound(node)}
     names = assigned - _loaded(nodes)
     actions = actions_of(source)
-    unused = set() if actions.includes else {*actions.declared} - {name.name for name, _ in actions.used}
+    texts = list(_texts(nodes))
+    unused = {*actions.declared} - {name.name for name, _ in actions.used} - _names_in_code(nodes, texts)
+    if actions.includes or any(map(_reads_computed_name, nodes)):
+        unused.clear()
     found = [
         text
-        for text, key in _texts(nodes)
+        for text, key in texts
         if text.value in names or (text.value == key and key in assigned) or (key and text.value in unused)
     ]
     for function in (node for node in nodes if isinstance(node, ast.FunctionDef)):
         inner = list(ast.walk(function))
         parameters = {each.arg for each in (*function.args.args, *function.args.kwonlyargs)} - _loaded(inner)
-        found += [text for text, _ in (_texts(inner) if parameters else ()) if text.value in parameters]
+        inner_texts = _texts(inner) if parameters else ()
+        found += [text for text, key in inner_texts if text.value in parameters and key in ("", text.value)]
     for text in found:
         yield text, f"this is the text `{text.value!s}`, not the value with this name; write it without quotes"
 
 
 def _loaded(nodes: list[ast.AST]) -> set[str]:
     return {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+
+
+def _names_in_code(nodes: list[ast.AST], texts: list[tuple[ast.Constant, str]]) -> set[object]:
+    """Return the texts in a file that can name a launch argument that code reads, such as indices and items."""
+    other = [text for text, _ in texts]
+    for node in nodes:
+        if isinstance(node, ast.Dict):
+            other += [key for key in node.keys if isinstance(key, ast.Constant)]
+        elif isinstance(node, ast.Call) and name_of(node.func) == "DeclareLaunchArgument":
+            first = node.args[:1] + [word.value for word in node.keywords if word.arg == "name"]
+            other += [each for each in first if isinstance(each, ast.Constant)]
+    places = {id(each) for each in other}
+    return {node.value for node in nodes if isinstance(node, ast.Constant) and id(node) not in places}
+
+
+def _reads_computed_name(node: ast.AST) -> bool:
+    """Return whether code reads a launch argument whose name is not written there."""
+    if not isinstance(node, ast.Call) or name_of(node.func) != "LaunchConfiguration":
+        return False
+    return any(not isinstance(each, ast.Constant) for each in node.args[:1])
 
 
 @lru_cache(maxsize=100)
@@ -87,8 +112,7 @@ def _texts(nodes: list[ast.AST]) -> Iterator[tuple[ast.Constant, str]]:
 def quoted_arguments(source: Source) -> Iterator[tuple[Attribute, str]]:
     """Yield the values in an XML launch file that equal the name of a launch argument, which the file does not use."""
     actions = actions_of(source)
-    used = {name.name for name, _ in actions.used}
-    unused = {name for name, each in actions.declared.items() if name not in used and not each.is_fixed}
+    unused = {name for name, each in actions.declared.items() if not (each.is_fixed or is_used(name, actions))}
     spaces = {"ns", "namespace"} & {*actions.declared}
     if actions.includes:
         unused.clear()

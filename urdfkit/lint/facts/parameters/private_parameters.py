@@ -22,15 +22,25 @@ from urdfkit.record import record
 
 _READ = r"\brospy\.(?:get_param|get_param_cached|has_param)\s*\(\s*[\"']([~/]?)(\w+)[\"']"
 _COMPUTED = (
-    r"\b(?:get_param|get_param_cached|has_param)\s*\(\s*(?![\"'])|[\"']~?/?[\"']\s*[+%]|search_param|[\"']~[\"']"
+    r"\b(?:get_param|get_param_cached|has_param)\s*\(\s*(?![\"'])|[\"']~?/?(?:%s|\{\w*\})?[\"']\s*[+%.]|search_param"
+    r"|[\"']~[\"']"
 )
 """Matches code that reads parameters with computed names."""
 
 _SHARED = ("robot_description", "robot_name", "tf_prefix", "use_sim_time")
 """Parameters that many nodes read from the global namespace."""
 
-_PRIVATE = ("amcl", "gmapping")
-"""Packages outside of the workspace whose nodes read private parameters only."""
+_PRIVATE = (
+    *("amcl", "gazebo_ros", "gmapping", "joint_state_publisher", "joint_state_publisher_gui", "joy", "map_server"),
+    *("robot_localization", "robot_state_publisher", "rviz", "tf2_ros"),
+)
+"""Packages outside of the workspace whose nodes read private parameters and those of `_SHARED` only."""
+
+_OF_OTHERS = re.compile(r"frame|topic")
+"""Parts of the names of parameters that nodes of many packages read."""
+
+_NAMED = r"\binit(?:_node)?\s*\([^()]*\)"
+"""Matches the call that names a node."""
 
 
 @record(eq=False)
@@ -73,7 +83,9 @@ def parameters_out_of_reach(source: Source, model: Model) -> Iterator[tuple[Attr
     """Yield the parameters and files of a ROS 1 launch file that their node reads from another namespace."""
     written, texts = list(_written(source, model)), _texts(model)
     yield from _repeated_names(written, texts)
-    readers = list(_readers(source, texts))
+    packages = {*_PRIVATE, *(neighbours(model.package) if model.package is not None else ())}
+    nodes = [tag.attributes["pkg"].value for _, tag in tags([source], "node") if "pkg" in tag.attributes]
+    readers = list(_readers(source, texts, packages.issuperset(nodes)))
     outside = [each for file in ros1_files(model) if readers for each in _written(file, model) if each.node is None]
     for each in (one for one in written if one.names):
         found = (_misplaced(each, reader, written, outside, texts) for reader in readers)
@@ -101,7 +113,8 @@ def _misplaced(
     if each.node is not None or each.space is None or each.space != reader.space or None in own:
         return None
     lost = sorted((names & reader.private) - {*_SHARED}.union(*(one for one in own if one is not None)))
-    if not lost or any(re.search(rf"[\"']/?{re.escape(name)}[\"']", text) for name in names for _, _, text in texts):
+    read = [rf"[\"'](?:[\w/]*/)?{re.escape(name)}[\"']" for name in names]
+    if not lost or any(re.search(each, text) for each in read for _, _, text in texts):
         return None
     return f"node `{reader.name}` reads its private parameter `{lost[0]}`, {each.misplaced('inside')}"
 
@@ -113,14 +126,19 @@ def _is_same(one: Tag | None, other: Tag) -> bool:
 def _repeated_names(
     written: list[_SetParameters], texts: list[tuple[str, str, str]]
 ) -> Iterator[tuple[Attribute, str]]:
-    """Yield the files whose only section has the name of the node that loads them into its own namespace."""
+    """Yield the files whose only section has the name of the node that loads them into its own namespace.
+
+    The code of the node has to be known: it may read a section with this name.
+    """
+    packages = {*_PRIVATE, *(package for package, _, _ in texts)}
     for each in written:
-        name = each.node.attributes["name"].value if each.node is not None and "name" in each.node.attributes else ""
+        words = each.node.attributes if each.node is not None else {}
+        name, package = (words[word].value if word in words else "" for word in ("name", "pkg"))
         is_file = each.attribute.name == "file"
-        if not (is_file and name and each.names == frozenset((name,))):
+        if not (is_file and name and each.names == frozenset((name,)) and package in packages):
             continue
-        is_read = rf"[\"']~?{re.escape(name)}/|_param\w*\s*\(\s*[\"']~?{re.escape(name)}[\"']"
-        if not any(re.search(is_read, text) for _, _, text in texts):
+        is_read = rf"[\"']~?/?{re.escape(name)}[\"'/]"
+        if not any(re.search(is_read, re.sub(_NAMED, "", text)) for _, _, text in texts):
             short = each.attribute.value.rpartition("/")[2]
             message = f"the only section of {short} is `{name}`, so its parameters are in `/{name}/{name}`"
             yield each.attribute, f"{message}; load it outside of the node"
@@ -144,7 +162,14 @@ def _written(source: Source, model: Model) -> Iterator[_SetParameters]:
             yield _SetParameters(attribute, names, node, namespace_of(tag))
 
 
-def _readers(source: Source, texts: list[tuple[str, str, str]]) -> Iterator[_ParameterReader]:
+def _readers(source: Source, texts: list[tuple[str, str, str]], is_complete: bool) -> Iterator[_ParameterReader]:
+    """Yield the nodes whose parameters are known.
+
+    Args:
+        source: a launch file.
+        texts: the code of the workspace.
+        is_complete: whether no node of the file can read parameters of its namespace in code outside of the workspace.
+    """
     for _, tag in tags([source], "node"):
         at = tag.attributes
         if not {"pkg", "type", "name"} <= at.keys() or "$" in at["name"].value or _has_inner(tag):
@@ -153,17 +178,29 @@ def _readers(source: Source, texts: list[tuple[str, str, str]]) -> Iterator[_Par
         own = [text for name, stem, text in texts if (name, stem) == (package, program)]
         private, public = frozenset[str](), dict[str, str]()
         if package in _PRIVATE and package == program.removeprefix("slam_"):
-            private = frozenset(parameters_of_package(package))
+            names = parameters_of_package(package)
+            private = frozenset(name for name in names if is_complete or not _OF_OTHERS.search(name))
         elif len(own) == 1 and "rospy" in own[0] and not re.search(_COMPUTED, own[0]):
             read = re.findall(_READ, own[0])
             private = frozenset(name for kind, name in read if kind == "~")
-            public = {name: f"{kind}{name}" for kind, name in read if kind != "~" and name not in private}
+            others = " ".join(_imported(own[0], texts))
+            if not re.search(_COMPUTED, others):
+                others_private = {name for kind, name in re.findall(_READ, others) if kind == "~"}
+                public = {name: f"{kind}{name}" for kind, name in read if kind != "~"}
+                public = {name: text for name, text in public.items() if name not in private | others_private}
+            private = private if is_complete else frozenset()
         remaps = [each.attributes for each in tag.children if each.name == "remap"]
         words = {value.value.strip("~/") for remap in remaps for value in remap.values()}
         words.update(re.findall(r"(?:^|\s)_(\w+):=", at["args"].value) if "args" in at else ())
         private, public = private - words, {name: text for name, text in public.items() if name not in words}
         if private or public:
             yield _ParameterReader(tag, at["name"].value, namespace_of(tag), private, public)
+
+
+def _imported(code: str, texts: list[tuple[str, str, str]]) -> list[str]:
+    """Return the code of the packages and modules of the workspace that code in Python imports."""
+    words = {word for line in re.findall(r"(?m)^\s*(?:from|import)\s+(.*)", code) for word in re.findall(r"\w+", line)}
+    return [text for package, stem, text in texts if "rospy" in text and not words.isdisjoint((package, stem))]
 
 
 def _has_inner(node: Tag) -> bool:

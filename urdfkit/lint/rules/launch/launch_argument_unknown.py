@@ -84,7 +84,9 @@ class LaunchArgumentUnknown(RobotRule):
 
     def _not_passed_on(self, file: LaunchActions, model: Model) -> Findings:
         """Yield the includes without an unused argument of their ROS 1 file; in ROS 2, the files share arguments."""
-        unused = [name for name, each in file.declared.items() if not (each.is_fixed or _is_evaluated(name, file))]
+        from urdfkit.lint.facts.launch.actions import is_used
+
+        unused = [name for name, each in file.declared.items() if not (each.is_fixed or is_used(name, file))]
         for call in file.includes if unused and not any(call.passes_all for call in file.includes) else ():
             path = receiver(call, model)
             actions = actions_at(path, model) if path is not None else None
@@ -189,12 +191,6 @@ class LaunchArgumentUnknown(RobotRule):
 
 _OPTIONAL = frozenset(("enable", "launch", "name", "path", "run", "show", "start", "use", "with"))
 """Words that names of arguments have or lack without another meaning."""
-
-
-def _is_evaluated(name: str, file: LaunchActions) -> bool:
-    """Return whether a launch file uses an argument, also in a Python expression."""
-    expression = rf"\$\(eval\b[^\"<>]*(?<!\w){re.escape(name)}(?!\w)"
-    return any(name == use.name for use, _ in file.used) or re.search(expression, file.source.text) is not None
 
 
 def _with_these_words(name: str, others: list[str], only_optional: bool) -> str | None:

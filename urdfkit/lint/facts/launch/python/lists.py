@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from urdfkit.description.launch.python_constants import LaunchReader
+from urdfkit.description.launch.python_constants import LaunchReader, name_of
 from urdfkit.lint.facts.launch.python.names import called, value_of
 
 ACTIONS = (
@@ -27,6 +27,10 @@ _OF_ACTIONS = {
     "TimerAction": "actions",
 }
 """Class → its argument that is a list of actions."""
+
+
+_LISTS = ("arguments", "parameters", "remappings")
+"""Arguments of actions that are lists."""
 
 
 def wrong_lists(
@@ -51,10 +55,24 @@ def wrong_lists(
             isinstance(value_of(each, reader), ast.Dict) for each in reader.items(value)
         ):
             yield item, "this list of parameters is inside of another list; write `*` before it"
+    for each in (node for word in _LISTS if word in words for node in ast.walk(words[word])):
+        if isinstance(each, ast.Call) and name_of(each.func) in ("list", "tuple") and len(each.args) == 1:
+            text = each.args[0]
+            if isinstance(text, ast.Constant) and isinstance(text.value, str):
+                yield text, "this makes a list of single letters; write the string in brackets"
     for item in reader.items(words.get("arguments")):
-        texts = [reader.text(each) or "" for each in (item.elts if isinstance(item, ast.List) else [])]
+        items = item.elts if isinstance(item, ast.List) else []
+        texts = [
+            str(each.value) if isinstance(each, ast.Constant) and _is_written_in(item, each) else "" for each in items
+        ]
         if len(texts) > 1 and all(text.strip(" /:=,") == text and text for text in texts):
             yield item, f"the strings of this inner list become one word, `{''.join(texts)}`; write `*` before it"
+
+
+def _is_written_in(outer: ast.expr, node: ast.expr) -> bool:
+    """Return whether an item is written in a list, and is not the value that a parameter of a function has there."""
+    start, end = (outer.lineno, outer.col_offset), (outer.end_lineno or 0, outer.end_col_offset or 0)
+    return start < (node.lineno, node.col_offset) < end
 
 
 def _is_action(node: ast.expr, reader: LaunchReader) -> bool:

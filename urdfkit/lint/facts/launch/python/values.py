@@ -67,9 +67,6 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
             found = [(node, f"`{node.func.id}` is an action, not a function; write it without parentheses")]
         elif isinstance(node, ast.Call) and name_of(node.func) == "bool" and len(node.args) == 1:
             found = _truth(node, node.args[0], reader)
-        elif isinstance(node, ast.Call) and name_of(node.func) in ("list", "tuple"):
-            texts = [each for each in node.args if _is_text(each) and len(reader.text(each) or "") > 1]
-            found = [(each, "this makes a list of single letters; write the string in brackets") for each in texts]
         elif isinstance(node, ast.Call):
             found = unevaluated_in_call(node, reader)
             if name_of(node.func) == "join":
