@@ -96,6 +96,7 @@ def test_a_consequence_whose_fix_corrects_the_cause_is_kept(tmp_path: Path) -> N
 
 
 RULES = Path(__file__).parents[1] / "rules"
+SHAPE_IN_DEGREES = '<visual><origin rpy="0 90 0"/><geometry><box size="0.4'
 
 
 @pytest.mark.parametrize(
@@ -103,6 +104,8 @@ RULES = Path(__file__).parents[1] / "rules"
     [
         ("fingers-not-opposed", "good.urdf", 'upper="0.03"', 'upper="40"', {"J422"}),
         ("fingers-not-opposed", "good.urdf", 'lower="0" upper="0.03"', 'lower="0.03" upper="0"', {"J405"}),
+        ("tool-frame-inside-body", "good.urdf.xacro", 'rpy="${-pi/2} 0 ${-pi/2}', 'rpy="${-pi/2} 0 ${pi/2}', {"S905"}),
+        ("inertia-unlike-shapes", "good.urdf.xacro", '<visual><geometry><box size="0.4', SHAPE_IN_DEGREES, {"J408"}),
         ("joint-without-controller", "bad.yaml", "[position]", "[velocity]", {"K965"}),
     ],
 )

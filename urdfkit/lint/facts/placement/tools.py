@@ -58,8 +58,11 @@ def tools_behind(model: Model) -> Iterator[tuple[Joint, bool]]:
             yield joint, along < _BACK
 
 
-def cameras_looking_back(model: Model) -> Iterator[Joint]:
-    """Yield the joints that mount cameras next to tools, whose view is opposite to the direction of the tool."""
+def cameras_looking_back(model: Model) -> Iterator[tuple[Joint, str]]:
+    """Yield the joints that mount cameras next to tools, whose view is opposite to the direction of the tool.
+
+    The second value is the optical frame.
+    """
     fixed: dict[str, list[Joint]] = {}
     for joint in model.robot.joints:
         if joint.type == "fixed" and joint.parent and joint.child:
@@ -85,7 +88,7 @@ def cameras_looking_back(model: Model) -> Iterator[Joint]:
             if name in mounts and _CAMERA.search(name) and "optical" in name.lower():
                 view = [row[2] for row in frame.rotation]
                 if sum(a * b for a, b in zip(view, direction or (0.0, 0.0, 0.0), strict=True)) < _BACK:
-                    yield mounts[name]
+                    yield mounts[name], name
                     break
 
 

@@ -52,7 +52,8 @@ class RpyInDegrees(RobotRule):
             )
             help = f"write angles in radians: {first:g} degrees are {radians(first):.6g} rad"
             fix = new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians")
-            yield self.at(model, origin, message, attribute="rpy", help=help, fix=fix)
+            link = next((each.name for each in model.robot.links if origin in each.element.walk()), None)
+            yield self.at(model, origin, message, attribute="rpy", link=link, help=help, fix=fix)
 
 
 def _is_degrees(angle: float) -> bool:

@@ -4,6 +4,7 @@ from math import hypot
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Joint, Pose, Vector
+from urdfkit.lint.facts.root_cause import parent_at
 from urdfkit.lint.model.placement import Extent, Frame
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -73,15 +74,16 @@ class SlideOffItsParent(RobotRule):
             if gap < _PART * (high - low) or _rises(joint, axis, high - low, parent, child):
                 continue
             message = f"joint `{joint.name}` moves `{joint.child}` {gap:.3g} m away from `{joint.parent}`"
+            at_parent = parent_at(model, joint)
             fitting = [each for each in _AXES if _gap(joint, each, (low, high), parent, child) < 0.02 * (high - low)]
             if len(fitting) == 1:
                 right = " ".join(f"{part:g}" for part in fitting[0])
                 element = joint.element.find("axis") or joint.element
                 help = f'with <axis xyz="{right}"/> the links stay in contact'
-                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
+                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, other=at_parent)
             elif not fitting and _is_along(joint, axis, parent):
                 help = "the range of motion is longer than the rail; check whether each limit should be half as large"
-                yield self.at(model, limit.element, message, joint=joint.name, help=help)
+                yield self.at(model, limit.element, message, joint=joint.name, help=help, other=at_parent)
 
 
 def _sizes(extent: Extent) -> list[float]:

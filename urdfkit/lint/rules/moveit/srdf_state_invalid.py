@@ -95,8 +95,8 @@ class SrdfStateInvalid(RobotRule):
                 message = f"all states of group `{group}` set {shown}, which the group does not contain"
                 if not is_foreign:
                     message = f"no state of group `{group}` has a value for {shown}, which the group contains"
-                other = _parent_of_branch(names[0], joints_of(group, root, robot) or set(), model)
-                kind, named = "foreign" if is_foreign else "", (group, *names)
+                other, moved = _branch(names[0], joints_of(group, root, robot) or set(), model)
+                kind, named = "foreign" if is_foreign else "", (group, *names, *moved)
                 yield self.at(
                     model, element, message, joint=names[0], severity=severity, kind=kind, names=named, other=other
                 )
@@ -118,7 +118,7 @@ class SrdfStateInvalid(RobotRule):
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
                     message = cause = f"joint `{value.get('name')}` is not in group `{group}`"
                     name = value.get("name") or ""
-                    other = _parent_of_branch(name, members, model)
+                    other, moved = _branch(name, members, model)
                     yield self.at(
                         model,
                         value,
@@ -128,7 +128,7 @@ class SrdfStateInvalid(RobotRule):
                         severity=severity,
                         cause=cause,
                         kind="foreign",
-                        names=(group,),
+                        names=(group, *moved),
                         other=other,
                     )
                 yield from self._mimics(state, model, severity)
@@ -264,11 +264,18 @@ def _in_all_states(root: Element, model: Model) -> dict[str, tuple[Element, tupl
     return found
 
 
-def _parent_of_branch(name: str, members: set[str], model: Model) -> Span | None:
-    """Return the parent of the only joint of a group that is a branch next to a joint outside of the group."""
+def _branch(name: str, members: set[str], model: Model) -> tuple[Span | None, list[str]]:
+    """Return the parent of the only joint of a group that is a branch next to a joint outside of the group.
+
+    The second value has the names of the links that the joint of the group carries.
+    """
     from urdfkit.lint.facts.root_cause import parent_at
+    from urdfkit.lint.model.placement import links_below
 
     joints = model.robot.joint_by_name
     branch = [each for each in members if name in joints and each in joints]
     branch = [each for each in branch if joints[each].parent == joints[name].parent]
-    return parent_at(model, joints[branch[0]]) if len(branch) == 1 else None
+    if len(branch) != 1:
+        return None, []
+    joint = joints[branch[0]]
+    return parent_at(model, joint), sorted(links_below(model.robot, joint.child or ""))

@@ -70,8 +70,8 @@ class ToolFrameInsideBody(RobotRule):
             place = joint.element.find("origin") or joint.element
             help = "move it to the tips of the fingers"
             yield self.at(model, place, message, attribute="xyz", joint=joint.name, help=help)
-        for joint in cameras_looking_back(model):
+        for joint, frame in cameras_looking_back(model):
             message = f"camera `{joint.child}` faces the arm instead of the tool"
             place = joint.element.find("origin") or joint.element
             help = "check the rpy of the origin"
-            yield self.at(model, place, message, attribute="rpy", joint=joint.name, help=help)
+            yield self.at(model, place, message, attribute="rpy", joint=joint.name, help=help, names=(frame,))

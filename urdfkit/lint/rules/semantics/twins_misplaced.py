@@ -12,7 +12,7 @@ from urdfkit.lint.facts.placement.mirrored_shapes import unmirrored_shapes
 from urdfkit.lint.facts.placement.twin_overlaps import overlapping_twins
 from urdfkit.lint.facts.root_cause import Place, argument_of_coordinate, call_of, shared_argument, written_at
 from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, mirrored, side_of, twins
-from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.model.placement import links_below, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _SAME = 0.02
@@ -90,7 +90,8 @@ class TwinsMisplaced(RobotRule):
         if model.is_damaged:
             return
         for joint, message, help in _on_other_side(model):
-            at_parent, names = joint.element.find("parent") or joint.element, (joint.child or "", *mirrored(joint.name))
+            at_parent = joint.element.find("parent") or joint.element
+            names = (*sorted(links_below(model.robot, joint.child or "")), *mirrored(joint.name))
             yield self.at(model, at_parent, message, attribute="link", joint=joint.name, help=help, names=names)
             return
         pairs = list(twins(model))
