@@ -158,6 +158,14 @@ def test_move_group_reads_pipelines_from_its_own_namespace(tmp_path, space):
     assert [row[1:] for row in found(cart, "L110")] == ([(3, message)] if space == "moveit" else [])
 
 
+def test_a_misspelt_namespace_of_planning_pipelines(tmp_path):
+    cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
+    write(cart / "launch/m.launch", MOVE_GROUP.format("move_group").replace("planning_pipelines", "planning_pipeline"))
+    [(_, line, message)] = found(cart, "L110")
+    assert line == 4
+    assert message.startswith("move_group reads its pipelines from `planning_pipelines`")
+
+
 FILTER = '<node pkg="robot_localization" exec="ekf_node"/>'
 VIRTUAL = (
     '<robot name="cart"><group name="all"><link name="base"/></group>'

@@ -250,7 +250,7 @@ def spawned_while_paused(source: Source, model: Model) -> Defects:
 
 
 def pipelines_elsewhere(source: Source) -> Defects:
-    """Yield the namespaces of groups with planning pipelines in which the node ``move_group`` does not read them."""
+    """Yield the namespaces with planning pipelines in which the node ``move_group`` does not read them."""
     tags = list(_tags(source)) if "moveit_ros_move_group" in source.text else []
     nodes = [tag.attributes for tag in tags if tag.name == "node" and _program(tag) == "move_group"]
     names = {at["name"].value for at in nodes if "name" in at and "ns" not in at}
@@ -258,6 +258,11 @@ def pipelines_elsewhere(source: Source) -> Defects:
     inner = [tag for tag in groups if tag.attributes["ns"].value.startswith("planning_pipelines")]
     outer = [tag.parent for tag in inner if tag.parent is not None and "ns" in tag.parent.attributes]
     spaces = {tag.start: tag.attributes["ns"] for tag in outer if _namespace(tag) == _own_namespace(tag)}
+    for space in (tag.attributes["ns"] for tag in tags if nodes and "ns" in tag.attributes):
+        for part in space.value.split("/"):
+            if part != "planning_pipelines" and nearest(part, ("planning_pipelines",), cutoff=0.9):
+                hint = Suggestion("planning_pipelines", part)
+                yield space, "move_group reads its pipelines from `planning_pipelines`" + hint
     is_plain = len(names) == 1 and not any("$" in name for name in (*names, *(each.value for each in spaces.values())))
     for space in spaces.values() if is_plain and len(nodes) == 1 else ():
         if space.value.strip("/") not in names:
