@@ -182,6 +182,18 @@ def test_a_text_is_not_the_value_of_an_argument_that_code_reads(tmp_path, readin
     assert bool(found(cart(tmp_path, other=other), "L106")) == is_reported
 
 
+@pytest.mark.parametrize(
+    ("more", "is_missing"),
+    [("", True), ('("share/cart", glob("config/*.yaml")),', False), ('("lib", glob("b/*")),', True)],
+)
+def test_setup_can_install_a_folder_twice(tmp_path, more, is_missing):
+    folder = cart(tmp_path)
+    files = f'[("share/cart/config", glob("config/*.yaml")), {more}]'
+    write(folder / "setup.py", f"from glob import glob\nfrom setuptools import setup\nsetup(data_files={files})\n")
+    write(folder / "launch/joy.launch.xml", XML.format(name="dev", value="$(var map)", path="joy.yaml"))
+    assert bool(found(folder, "K958")) == is_missing
+
+
 XML = """<launch>
   <arg name="map" default="hall.yaml"/>
   <node pkg="joy" exec="joy_node" name="joy_node">
@@ -224,6 +236,9 @@ def test_arguments_in_expressions_are_used(tmp_path):
         (INSTALL.format(more="launch", to=""), True),
         (INSTALL.format(more="launch", to="").replace("config", "config/"), False),
         ("install(FILES ${YAMLS} DESTINATION share/${PROJECT_NAME})\n", False),
+        (INSTALL.format(more="", to="") + "install(FILES ${YAMLS} DESTINATION share/${PROJECT_NAME})\n", False),
+        (INSTALL.format(more="", to="") + "set(d config)\ninstall(DIRECTORY ${d}/ DESTINATION share)\n", False),
+        (INSTALL.format(more="", to="") + "install(TARGETS ${NODES} DESTINATION lib/${PROJECT_NAME})\n", True),
     ],
 )
 def test_a_file_in_a_folder_is_missing_at_the_root_of_its_package(tmp_path, install, is_missing):

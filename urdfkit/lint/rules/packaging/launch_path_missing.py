@@ -109,15 +109,22 @@ def _exists(package: Path, path: str, model: Model) -> bool:
 
 
 def _keeps_folder(folder: str, texts: list[str]) -> bool:
-    """Return whether the build installs the files of a folder into a folder with the same name only."""
+    """Return whether the build installs the files of a folder into a folder with the same name only.
+
+    A build that also installs files of computed names may install them into another folder.
+    """
     name = re.escape(folder)
     cmake = rf"install\s*\(\s*DIRECTORY\b[^()]*?[\s/]{name}(?:\s[^()]*)?\)"
-    setup = rf"[/'\"]{name}/?['\"]\s*\)?\s*,\s*(?:glob|\[|sorted|list)"
-    of_folder = [text for text in texts if folder in text]
-    return bool(of_folder) and all(
-        (re.search(cmake, text) is not None and f"{folder}/" not in text) or re.search(setup, text) is not None
-        for text in of_folder
-    )
+    setup = rf"[/'\"]{name}/?['\"]\s*\)?\s*,\s*(?:glob|\[|sorted|list)[^)\]]*"
+    is_kept = False
+    for text in (each for each in texts if folder in each):
+        rest = re.sub(setup, "", text)
+        in_cmake = re.search(cmake, text) and f"{folder}/" not in text and not re.search(_COMPUTED_SOURCES, text)
+        in_setup = rest != text and not re.search(rf"['\"](?:\./)?(?:{name}\b|\*)|\bwalk\b", rest)
+        is_kept = bool(in_cmake) or in_setup
+        if not is_kept:
+            return False
+    return is_kept
 
 
 def _is_created_at_run_time(package: Path, path: str) -> bool:
@@ -150,6 +157,9 @@ _RECORDINGS = frozenset((".bag", ".db3", ".mcap", ".log", ".csv", ".pcd", ".pgm"
 _RUN_TIME_FOLDERS = frozenset(
     ("bag", "bags", "rosbag", "rosbags", "log", "logs", "map", "maps", "output", "results", "recordings", "tmp")
 )
+
+_COMPUTED_SOURCES = r"(?:install|file)\s*\(\s*(?:DIRECTORY|FILES|PROGRAMS|COPY)\b(?:(?!\bDESTINATION\b)[^()$])*\$"
+"""Matches the installation of files whose names are variables in CMakeLists.txt."""
 
 _OWN_NAME = r"(?m)^\s*(?:project\s*\([^)]*\)|(?:(?:package_)?name|description)\s*=.*)"
 """Matches the name of the package in build files, often also that of the robot, and its description."""
