@@ -284,6 +284,13 @@ def test_wheels_of_a_controller_that_all_roll_backwards_are_found(tmp_path: Path
     found = findings(tmp_path, {**FILES_OF_ROS1, "urdf/cart.urdf": robot})
     assert [each[0] for each in found] == ["S903"]
     assert "point right, so they roll backwards" in found[0][3]
+    reversed_radii = "".join(f"  {side}_wheel_radius_multiplier: -1.0\n" for side in ("left", "right"))
+    files = {
+        **FILES_OF_ROS1,
+        "urdf/cart.urdf": robot,
+        "config/control.yaml": CONTROL.rstrip("\n") + f"\n{reversed_radii}",
+    }
+    assert "S903" not in [each[0] for each in findings(tmp_path / "reversed", files)]
 
 
 CONTROLLED = """<robot name="cart">

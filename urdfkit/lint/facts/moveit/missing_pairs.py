@@ -46,7 +46,12 @@ def overlapping(model: Model, disabled: Pairs) -> Iterator[Missing]:
 
 
 def unlike_other_side(model: Model, disabled: Pairs) -> Iterator[Missing]:
-    """Yield the only pair of links that is not disabled although its counterpart on the other side is."""
+    """Yield the only pair of links that is not disabled although its counterpart on the other side is.
+
+    Compares pairs of one limb with one link between them. Whether links farther apart can touch, the Setup Assistant
+    finds by sampling, with different results for the two sides.
+    """
+    parents = {joint.child: joint.parent for joint in model.robot.joints}
     solid = {link.name for link in model.robot.links if link.collisions}
     missing: list[Missing] = []
     equal = 0
@@ -59,7 +64,7 @@ def unlike_other_side(model: Model, disabled: Pairs) -> Iterator[Missing]:
             continue
         if counterpart in disabled:
             equal += 1
-        else:
+        elif not counterpart & pair and any(parents.get(parents.get(link)) in pair - {link} for link in pair):
             missing.append(((sides[0], sides[1]), element, "are the counterparts of a pair that the SRDF disables"))
     if len(missing) == 1 and equal >= 2 * _FEWEST:
         yield missing[0]

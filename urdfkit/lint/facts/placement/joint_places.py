@@ -28,6 +28,9 @@ _SLENDER = 2.5
 _ENDS = 2
 """Smallest number of joints at the ends of their tubes of which one stands out."""
 
+_ALONG = 0.7
+"""Smallest cosine of the angle between an axis and the tube that it turns about."""
+
 _FEWEST = 4
 """Smallest number of joints on the surfaces of their parent links of which one stands out."""
 
@@ -83,8 +86,9 @@ def misplaced(model: Model) -> Iterator[Place]:
 def along_tubes(model: Model) -> Iterator[tuple[Joint, Element, float, float]]:
     """Yield the joint that is not at the end of the tube that carries it: joint, ``<origin>``, its place, the length.
 
-    A tube is a slender link that starts at its own frame and carries one moving link. Yields the only such joint, if
-    several others are at the ends of their tubes, or if it is as far along its tube as the next tube is long.
+    A tube is a slender link that starts at its own frame and carries one moving link. Yields the only such joint, if it
+    is as far along its tube as the next tube is long, or if it carries a tube, does not turn about the axis of its
+    own tube and several others are at the ends of theirs.
     """
     tubes = {link: tube for link, extent in model.extents.items() if (tube := _tube(extent)) is not None}
     carried = Counter(joint.parent for joint in model.robot.joints if joint.is_movable)
@@ -109,7 +113,9 @@ def along_tubes(model: Model) -> Iterator[tuple[Joint, Element, float, float]]:
     [(joint, element, place, length)] = off.values()
     own = tubes.get(joint.child or "")
     is_length_of_next = own is not None and abs(abs(own[1]) - place) <= _EXACT
-    if place > 0.0 and (is_length_of_next or len(ends) >= _ENDS):
+    carrier = tubes[joint.parent or ""]
+    is_folding = own is not None and abs(joint.axis[carrier[0]]) < _ALONG
+    if place > 0.0 and (is_length_of_next or (is_folding and len(ends) >= _ENDS)):
         yield joint, element, place, length
 
 

@@ -149,7 +149,10 @@ def _crossing(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
 
 
 def _beside(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
-    """Yield the joint that places a link in one on another branch of the robot, if that is the only such pair."""
+    """Yield the joint that places a link in one on another branch of the robot, if that is the only such pair.
+
+    Compares links that turn about their centres, such as wheels, and links with another parent than their counterpart.
+    """
     single = {body: solids[0] for body, solids in bodies.solids.items() if len(solids) == 1 and body in bodies.carriers}
     single = {body: solid for body, solid in single.items() if diagonal(solid.shape) > _SMALL}
     chains = {body: {body, *(carrier for carrier, _ in bodies.above(body))} for body in single}
@@ -166,6 +169,12 @@ def _beside(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
             outer.depth(point) > _BESIDE * thickness for inner, outer in pairs for point in _inner_points(inner)
         ):
             continue
+        ends = [bodies.carriers[name][1] for name in (body, other)]
+        are_centred = all(
+            _is_centred(single[name], joint, model) for name, joint in zip((body, other), ends, strict=True)
+        )
+        if not are_centred and not any(_has_other_parent(joint, model) for joint in ends):
+            continue  # Rods and cylinders of closed chains meet in parts on another branch.
         joints = [joint for name in (body, other) for joint in (bodies.carriers[name][1], *_joints_above(name, bodies))]
         if all(map(_includes_zero, joints)):
             found.append((body, other))
@@ -181,6 +190,12 @@ def _beside(model: Model, bodies: MovingBodies) -> Iterator[Overlap]:
     written = parent_at(model, joint) if moved is not None else None
     message = f"link `{single[wrong].link.name}` is in link `{single[right].link.name}`, on another branch of the robot"
     yield Overlap(joint, _origin(joint), message, written)
+
+
+def _is_centred(solid: Solid, joint: Joint, model: Model) -> bool:
+    """Return whether a joint is in the middle of the shape of its load, as that of a wheel is."""
+    frame = model.frames.get(joint.child or "")
+    return frame is not None and dist(frame.translation, solid.at.translation) <= _DEEP * diagonal(solid.shape)
 
 
 def _has_other_parent(joint: Joint, model: Model) -> bool:

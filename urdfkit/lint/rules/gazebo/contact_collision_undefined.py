@@ -58,6 +58,9 @@ class ContactCollisionUndefined(RobotRule):
                 own = collision.element.get("name")
                 names |= dict.fromkeys([f"{link.name}_collision{f'_{k}' if k else ''}"])
                 names |= dict.fromkeys([f"{own}_collision", own] if own else [])
+        for block in blocks:  # Gazebo adds these to the links.
+            added = (each.get("name") for each in block.element.find_all("collision"))
+            names |= dict.fromkeys(name for name in added if name)
         for block, sensor in sensors:
             for element in sensor.element.walk():
                 if element.tag != "collision" or not element.text or model.is_unresolved(element):

@@ -16,6 +16,9 @@ _EQUAL = 0.05
 _UNLIKE = 1.6
 """Smallest ratio of a moment to that of the shapes, or the reverse, that is reported."""
 
+_HOLLOW = 2.0
+"""Largest ratio of a moment of a hollow part, whose mass is in its surface, to that of a solid part."""
+
 _FEWEST = 4
 """Smallest number of links with the moments of their shapes."""
 
@@ -32,8 +35,9 @@ class InertiaUnlikeShapes(RobotRule):
     ## What it does
     Compares ixx, iyy and izz of each link with the moments of its box, cylinder or sphere at uniform density. If at
     least four links, and three quarters of all, have these moments (within 5 %), the only tensor is reported with a
-    moment that differs by a factor of more than 1.6. Links whose centre of mass is not that of the shape are left out.
-    The links of one macro call, or one ``<inertia>``, count as one.
+    moment that differs by a factor of more than 1.6. Links whose centre of mass is not that of the shape are left out,
+    and so are hollow parts: none of their moments is smaller, nor larger than twice that of the solid shape. The links
+    of one macro call, or one ``<inertia>``, count as one.
 
     ## Why is this bad?
     A size in a formula was exchanged, or an argument of the macro that computes the inertia: the part swings faster or
@@ -96,7 +100,7 @@ class InertiaUnlikeShapes(RobotRule):
             ratios = [max(a, b) / min(a, b) for a, b in zip(actual, expected, strict=True)]
             if max(ratios) <= 1.0 + _EQUAL:
                 right.append(element)
-            elif max(ratios) >= _UNLIKE:
+            elif max(ratios) >= _UNLIKE and not _is_hollow(actual, expected):
                 wrong.append((link, element, expected))
         if not wrong or len(right) < max(_FEWEST, _SHARE * len(wrong)):
             return
@@ -110,6 +114,12 @@ class InertiaUnlikeShapes(RobotRule):
             help = "check the formula, its sizes and the arguments of the macro"
             fix = computed(model, link, element) if not element.origin.expansions else None
             yield self.at(model, place, message, link=link.name, help=help, fix=fix)
+
+
+def _is_hollow(actual: tuple[float, ...], expected: tuple[float, ...]) -> bool:
+    """Return whether moments can be those of a part whose mass is in the surface of its shape."""
+    ratios = [a / b for a, b in zip(actual, expected, strict=True)]
+    return all(1.0 - _EQUAL <= ratio <= _HOLLOW * (1.0 + _EQUAL) for ratio in ratios)
 
 
 def _compared(link: Link, model: Model) -> tuple[Element, tuple[float, ...], tuple[float, ...]] | None:

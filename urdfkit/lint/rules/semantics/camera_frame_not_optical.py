@@ -15,7 +15,8 @@ class CameraFrameNotOptical(RobotRule):
     """The images of a camera are in the frame of its body, or the camera itself is in the optical frame.
 
     ## What it does
-    Checks ``optical_frame_id``, without it ``gz_frame_id``, and the frames of camera plugins of Gazebo Classic. Reports
+    Checks ``optical_frame_id``, without it ``gz_frame_id``, and the frames of camera plugins of Gazebo Classic. The
+    ``gz_frame_id`` of depth and logical cameras is left out: Gazebo also publishes points along x in it. Reports
     a link that has a child with ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in an optical
     frame, recognised by an x axis that points to the right of the parent link: Gazebo cameras look along x.
 
@@ -84,6 +85,9 @@ def _sideways(model: Model) -> Iterator[tuple[GazeboBlock, str]]:
 _TAGS = ("optical_frame_id", "gz_frame_id", "ignition_frame_id")
 """Elements of a sensor that name the frame of its images."""
 
+_WITH_POINTS = ("depth", "depth_camera", "logical_camera", "rgbd", "rgbd_camera")
+"""Types of sensors whose ``<gz_frame_id>`` is also the frame of points or objects, which Gazebo measures along x."""
+
 
 def _is_camera(kind: str) -> bool:
     return "camera" in kind or kind.strip() in ("depth", "multicamera")
@@ -95,7 +99,8 @@ def _frames(model: Model) -> Iterator[Element]:
         for sensor in block.sensors:
             if not _is_camera(sensor.type or ""):
                 continue
-            named = [each for each in sensor.element.walk() if each.tag in _TAGS]
+            tags = _TAGS[:1] if (sensor.type or "").strip() in _WITH_POINTS else _TAGS
+            named = [each for each in sensor.element.walk() if each.tag in tags]
             optical = [each for each in named if each.tag == "optical_frame_id"]
             yield from optical or named  # next to an optical frame, the other frame is that of the body
             for plugin in sensor.plugins:

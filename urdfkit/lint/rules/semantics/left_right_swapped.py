@@ -14,7 +14,7 @@ class LeftRightSwapped(RobotRule):
     ## What it does
     Checks the positions of the joints that a drive names as left and right: x points forward and y left (REP 103). Also
     checks for wheels whose axes point right, so that they roll backwards, including those of a
-    ``diff_drive_controller`` that a Gazebo plugin of the robot runs.
+    ``diff_drive_controller`` that a Gazebo plugin of the robot runs, without negative multipliers.
 
     ## Why is this bad?
     The robot turns in the wrong direction. The drive plugin of Gazebo Classic up to ROS Indigo swaps the sides itself,
@@ -84,6 +84,7 @@ class LeftRightSwapped(RobotRule):
     def _of_controllers(self, model: Model) -> Findings:
         """Yield a finding for each simulated diff_drive_controller whose wheels, on the right sides, roll backwards."""
         from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels, wheels_of
+        from urdfkit.lint.facts.control.yaml_tree import number_of
         from urdfkit.lint.facts.gazebo.plugins import runs_controllers
 
         if not runs_controllers(model.robot):
@@ -91,7 +92,9 @@ class LeftRightSwapped(RobotRule):
         for _, controller in diff_drives(model):
             left, right = ([wheel for _, wheel in wheels_of(controller, model, side)] for side in ("left", "right"))
             is_on_side = bool(left and right) and left[0].place[1] > right[0].place[1]
-            if is_on_side and _roll_backwards(left, right) and not has_other_wheels(model):
+            radii = [value for key, value in controller.group.entries if "radius" in key.text]
+            is_reversed = any((number_of(value) or 0.0) < 0.0 for value in radii)
+            if is_on_side and not is_reversed and _roll_backwards(left, right) and not has_other_wheels(model):
                 yield self._backwards(model, left[0], right[0])
 
     def _backwards(self, model: Model, left: Wheel, right: Wheel) -> Finding:

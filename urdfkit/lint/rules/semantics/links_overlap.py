@@ -16,8 +16,9 @@ class LinksOverlap(RobotRule):
       arm. Both links must have a single shape. Stages of telescopes and joints whose limits exclude zero are not
       compared.
 
-    - A link is in a link on another branch, such as a wheel in the wheel next to it. Grippers, doors and other parts
-      that touch are not compared.
+    - A link is in a link on another branch, such as a wheel in the wheel next to it. Compares links that turn about
+      their centres and links with another parent than their counterpart on the other side, but no grippers, doors and
+      other parts that touch.
 
     None of two hundred robots of public repositories has such links.
 
