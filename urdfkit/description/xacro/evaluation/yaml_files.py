@@ -74,10 +74,9 @@ def yaml_values(text: str, name: str, evaluate: Callable[[str], Any], spend: Cal
     for tag, factor in _UNITS.items():
         Loader.add_constructor(tag, with_unit(factor))
     try:
-        if text in _kept:
-            root, count = _kept[text]
-            spend(4 * count)
-            return wrapped(Loader("").construct_document(root))
+        if (kept := _kept.get(text)) is not None:  # one access, because threads share it
+            spend(4 * kept[1])
+            return wrapped(Loader("").construct_document(kept[0]))
         loader = Loader(text)
         root = loader.get_single_node()
         if root is None:
