@@ -4,17 +4,21 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import is_frame, references
+from urdfkit.lint.facts.gazebo.sensor_frames import FRAMES, sensors_without_frame
 from urdfkit.lint.fix_builders import meant, new_text
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class SensorFrameUndefined(RobotRule):
-    """A sensor names an undefined frame.
+    """A sensor names an undefined frame, or no frame.
 
     ## What it does
     Compares ``frameName``, ``frame_name``, ``gz_frame_id`` and similar elements of sensors with the links. ``world``,
-    ``map`` and ``odom`` are accepted as frames outside the robot.
+    ``map`` and ``odom`` are accepted as frames outside the robot. Also reports a camera or lidar of Gazebo without any
+    of these elements, if its link has an optical frame, or if other cameras and lidars of the robot have one. Its data
+    are in a frame with the names of the model, the link and the sensor, which no link has. Sensors with plugins, robots
+    with plugins of Gazebo Classic, and robots whose launch files publish or override this frame are not checked.
 
     ## Why is this bad?
     Images and scans are published in a frame that is missing in TF: RViz shows nothing, and localisation waits for the
@@ -54,6 +58,10 @@ class SensorFrameUndefined(RobotRule):
             message = f"<{tag}> names the undefined frame `{text}`" + hint
             finding = self.at(model, element, message, fix=new_text(model, element, near, "unsafe"))
             yield from unless_masked(model, text, near, finding)
+        for block, sensor, frame in sensors_without_frame(model):
+            message = f"sensor `{sensor.name}` has no <gz_frame_id>, so the frame of its data is not a link"
+            help = f"write <gz_frame_id>{frame}</gz_frame_id>"
+            yield self.at(model, sensor.element, message, link=block.reference, help=help)
 
     def _frames(self, model: Model) -> Iterator[tuple[str, Element, str]]:
         for text, element, parameter, _ in references(model, ("frame",)):
@@ -62,9 +70,5 @@ class SensorFrameUndefined(RobotRule):
         for block in model.robot.gazebo:
             for sensor in block.sensors:
                 for child in sensor.element.walk():
-                    if (
-                        child.tag in ("gz_frame_id", "ignition_frame_id", "optical_frame_id")
-                        and child.text
-                        and "$" not in child.text
-                    ):
+                    if child.tag in FRAMES and child.text and "$" not in child.text:
                         yield child.text, child, child.tag
