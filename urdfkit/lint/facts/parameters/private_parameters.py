@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import documents
@@ -86,9 +87,9 @@ def parameters_out_of_reach(source: Source, model: Model) -> Iterator[tuple[Attr
     packages = {*_PRIVATE, *(neighbours(model.package) if model.package is not None else ())}
     nodes = [tag.attributes["pkg"].value for _, tag in tags([source], "node") if "pkg" in tag.attributes]
     readers = list(_readers(source, texts, packages.issuperset(nodes)))
-    outside = [each for file in ros1_files(model) if readers for each in _written(file, model) if each.node is None]
+    outside, read = (_outside_of_nodes(model), _names_read(model)) if readers else ([], frozenset[str]())
     for each in (one for one in written if one.names):
-        found = (_misplaced(each, reader, written, outside, texts) for reader in readers)
+        found = (_misplaced(each, reader, written, outside, read) for reader in readers)
         message = next((one for one in found if one is not None), None)
         if message is not None:
             yield each.attribute, message
@@ -99,9 +100,17 @@ def _misplaced(
     reader: _ParameterReader,
     written: list[_SetParameters],
     outside: list[_SetParameters],
-    texts: list[tuple[str, str, str]],
+    read: frozenset[str],
 ) -> str | None:
-    """Return the message for parameters that a node reads, but not where an element sets them; None for others."""
+    """Return the message for parameters that a node reads, but not where an element sets them; None for others.
+
+    Args:
+        each: the parameters.
+        reader: the node.
+        written: all parameters of the launch file.
+        outside: the parameters that launch files set outside of nodes.
+        read: the names in the code of the workspace, except private ones.
+    """
     names = each.names or frozenset()
     if _is_same(each.node, reader.node):
         lost = sorted(names & reader.public.keys())
@@ -113,8 +122,7 @@ def _misplaced(
     if each.node is not None or each.space is None or each.space != reader.space or None in own:
         return None
     lost = sorted((names & reader.private) - {*_SHARED}.union(*(one for one in own if one is not None)))
-    read = [rf"[\"'](?:[\w/]*/)?{re.escape(name)}[\"']" for name in names]
-    if not lost or any(re.search(each, text) for each in read for _, _, text in texts):
+    if not lost or names & read:
         return None
     return f"node `{reader.name}` reads its private parameter `{lost[0]}`, {each.misplaced('inside')}"
 
@@ -142,6 +150,12 @@ def _repeated_names(
             short = each.attribute.value.rpartition("/")[2]
             message = f"the only section of {short} is `{name}`, so its parameters are in `/{name}/{name}`"
             yield each.attribute, f"{message}; load it outside of the node"
+
+
+@kept
+def _outside_of_nodes(model: Model) -> list[_SetParameters]:
+    """Return the parameters that the launch files set outside of nodes."""
+    return [each for file in ros1_files(model) for each in _written(file, model) if each.node is None]
 
 
 def _written(source: Source, model: Model) -> Iterator[_SetParameters]:
@@ -208,6 +222,14 @@ def _has_inner(node: Tag) -> bool:
     return any(each.name == "rosparam" and "file" not in each.attributes for each in node.children)
 
 
+@kept
+def _names_read(model: Model) -> frozenset[str]:
+    """Return the last words of the names in the code of the workspace, except private names."""
+    name = re.compile(r"[\"'](?:[\w/]*/)?(\w+)(?=[\"'])")
+    return frozenset(word for _, _, text in _texts(model) for word in name.findall(text))
+
+
+@kept
 def _texts(model: Model) -> list[tuple[str, str, str]]:
     """Return package, name without its ending, and text of each file with code in the workspace."""
     folders = neighbours(model.package) if model.package is not None else {}

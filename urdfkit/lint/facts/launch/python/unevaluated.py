@@ -44,15 +44,18 @@ def unevaluated_in_call(call: ast.Call, reader: LaunchReader) -> Defects:
         yield from _mapping(each, reader)
 
 
-def unevaluated_in_assignment(node: ast.Assign, tree: ast.Module, reader: LaunchReader) -> Defects:
+def mappings_of_xacro(tree: ast.Module) -> set[str]:
+    """Return the names of the variables that a launch file passes to xacro as mappings."""
+    calls = (each for each in ast.walk(tree) if isinstance(each, ast.Call) and name_of(each.func) in _OF_XACRO)
+    words = (word.value for each in calls for word in each.keywords if word.arg == "mappings")
+    return {word.id for word in words if isinstance(word, ast.Name)}
+
+
+def unevaluated_in_assignment(node: ast.Assign, mappings: set[str], reader: LaunchReader) -> Defects:
     """Yield the value that is assigned to an item of the mappings of xacro, if xacro cannot use it."""
     target = node.targets[0]
-    if isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name):
-        name = target.value.id
-        calls = (each for each in ast.walk(tree) if isinstance(each, ast.Call) and name_of(each.func) in _OF_XACRO)
-        words = (word for each in calls for word in each.keywords if word.arg == "mappings")
-        if any(isinstance(word.value, ast.Name) and word.value.id == name for word in words):
-            yield from _mapping(node.value, reader)
+    if isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and target.value.id in mappings:
+        yield from _mapping(node.value, reader)
 
 
 def _values(mappings: ast.expr, reader: LaunchReader) -> list[ast.expr]:

@@ -20,6 +20,7 @@ from urdfkit.lint.facts.launch.python.api import incomplete_call
 from urdfkit.lint.facts.launch.python.lists import ACTIONS, wrong_lists
 from urdfkit.lint.facts.launch.python.names import called, class_called, launch_classes, value_of
 from urdfkit.lint.facts.launch.python.unevaluated import (
+    mappings_of_xacro,
     unevaluated_in_assignment,
     unevaluated_in_call,
     unevaluated_in_text,
@@ -55,6 +56,7 @@ _ONLY_FIRST = {
 def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield the place and message of each value of the wrong kind."""
     reader, classes = launch_reader(tree), launch_classes(tree)
+    mappings = mappings_of_xacro(tree)
     created = {name for name, kind in classes.items() if kind in ACTIONS}
     flags = set(_flags(tree, reader))
     found: Iterable[tuple[ast.expr, str]]
@@ -74,7 +76,7 @@ def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
         elif isinstance(node, (ast.BinOp, ast.JoinedStr)):
             found = unevaluated_in_text(node, reader)
         elif isinstance(node, ast.Assign):
-            found = unevaluated_in_assignment(node, tree, reader)
+            found = unevaluated_in_assignment(node, mappings, reader)
         elif isinstance(node, ast.Attribute):
             found = unknown_constant(node)
         else:
