@@ -145,6 +145,19 @@ def test_a_node_that_may_publish_odometry_is_trusted(tmp_path):
     assert [one.code for one in lint(tmp_path, target="ros2") if one.file.endswith(".yaml")] == []
 
 
+@pytest.mark.parametrize(
+    ("content", "lines"),
+    [('<param name="a" value="1"/>', [3]), ('<node pkg="twist_mux" exec="twist_mux" name="second"/>', [])],
+)
+def test_a_namespace_of_parameters_does_not_change_topics(tmp_path, content, lines):
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    group = f'<group ns="other">{content}</group>'
+    for file, text in FILES.items():
+        text = text.replace("</launch>", f"{group}</launch>").replace("scan_topic: /scan", "scan_topic: /front/scan")
+        (tmp_path / file).write_text(text.replace("base_driver", "robot_state_publisher"))
+    assert [one.line for one in lint(tmp_path, target="ros2") if one.code == "K977"] == lines
+
+
 @pytest.mark.parametrize("has_other", [False, True])
 def test_a_topic_of_a_sensor_that_other_files_name_otherwise_is_reported_at_the_sensor(tmp_path, has_other):
     (tmp_path / "cart.urdf").write_text(ROBOT.replace("imu/data<", "imu/data_raw<"))

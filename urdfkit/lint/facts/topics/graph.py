@@ -8,6 +8,7 @@ sources.
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import yamls
@@ -20,6 +21,7 @@ from urdfkit.lint.facts.topics.node_topics import CAMERAS, may_publish, topics_o
 from urdfkit.lint.facts.topics.own_nodes import own_publications
 from urdfkit.lint.facts.topics.robot_topics import last
 from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document
 
 _CONTROLLERS = (
     (r"diff_drive_controller/|tricycle_controller/|four_wheel_steering_controller/", "odom", "Odometry"),
@@ -41,7 +43,7 @@ twist_mux explore_lite gmapping hector_mapping slam_gmapping
 """Packages whose nodes publish no sensor messages and no odometry but those of `node_topics`."""
 
 _INCLUDED = ("nav2_bringup", "slam_toolbox", "gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
-_NAMESPACES = r"namespace\s*=|PushRos\w*Namespace|push[-_]ros[-_]namespace|<group\b[^<>]*\bns\s*=|<node\b[^<>]*\bns\s*="
+_NAMESPACES = r"namespace\s*=|PushRos\w*Namespace|push[-_]ros[-_]namespace|<node\b[^<>]*\bns\s*="
 _REMAPS = r"SetRemap\s*\(|<set_remap\b"
 
 
@@ -89,7 +91,14 @@ def _has_camera_plugin(model: Model) -> bool:
 
 def has_namespaces(model: Model) -> bool:
     """Return whether a launch file starts nodes in a namespace, so that relative names of topics differ."""
-    return _matches(model, _NAMESPACES)
+    return _matches(model, _NAMESPACES) or any(_has_group(file.source) for file in launch_files(model))
+
+
+def _has_group(source: Source) -> bool:
+    """Return whether an XML launch file starts nodes in a group with a namespace, which may also be for parameters."""
+    groups = [tag for tag in Document(source).walk() if tag.name == "group"] if "<group" in source.text else ()
+    named = [group for group in groups if "ns" in group.attributes]
+    return any(tag.name in ("node", "include") for group in named for tag in group.walk() if tag is not group)
 
 
 def remaps_groups(model: Model) -> bool:
