@@ -281,6 +281,31 @@ def test_targets_of_catkin(tmp_path, monkeypatch, old, new, expected):
     assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
 
 
+@pytest.mark.parametrize(
+    ("components", "header", "is_declared", "is_reported"),
+    [
+        ("roscpp", "geometry_msgs/Twist.h", True, True),
+        ("geometry_msgs\n  roscpp", "geometry_msgs/Twist.h", True, False),
+        ("roscpp\n  tf2_ros", "geometry_msgs/Twist.h", True, False),  # provides geometry_msgs
+        ("roscpp\n  shop", "geometry_msgs/Twist.h", True, False),  # may provide it
+        ("roscpp", "geometry_msgs/Twist.h", False, False),  # package-xml-dependency
+        ("roscpp", "std_msgs/Header.h", True, False),
+        ("roscpp", "cart/Load.h", True, False),
+    ],
+)
+def test_components_of_catkin(tmp_path, monkeypatch, components, header, is_declared, is_reported):
+    monkeypatch.chdir(tmp_path)
+    manifest = MANIFEST_OF_CATKIN.replace("octomap", "geometry_msgs" if is_declared else "octomap")
+    manifest = manifest.replace("</package>", "  <depend>tf2_ros</depend>\n  <depend>shop</depend>\n</package>")
+    code = f"#include <ros/ros.h>\n#include <{header}>\nint main() {{}}\n"
+    cmake = CATKIN.replace("  roscpp\n", f"  {components}\n")
+    files = {**FILES, "CMakeLists.txt": cmake, "package.xml": manifest, "src/drive.cpp": code}
+    write(tmp_path, {**files, "msg/Load.msg": "float64 mass\n"})
+    message = "find_package(catkin) lacks `geometry_msgs`, whose headers target `drive` includes"
+    rows = [row for row in found(tmp_path) if "find_package" in row]
+    assert rows == ([f"CMakeLists.txt:4: {message}"] if is_reported else [])
+
+
 @pytest.mark.parametrize("package", ["nav_msgs", "shop_msgs"])
 @pytest.mark.parametrize("is_given", [False, True])
 def test_packages_of_own_headers(tmp_path, monkeypatch, package, is_given):

@@ -190,7 +190,7 @@ def package_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
         elif covered is not None and word not in covered and (word in names() or word in near):
             reported.add(word)
             message = f"{every[at].name}() needs find_package({word} REQUIRED)"
-            yield BuildDefect(source, *_place(every, word), message)
+            yield BuildDefect(source, *place_of_package(every, word), message)
     for at, command in enumerate(every):
         providers = _NEEDED.get(command.name, ())
         places = [found[name] for name in providers if name in found]
@@ -208,7 +208,11 @@ def package_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]
             continue
         reported.add(providers[0])
         message = f"{command.name}() needs find_package({providers[0]} REQUIRED)"
-        place = (command.start, command.name) if is_test and "add" in command.name else _place(every, providers[0])
+        place = (
+            (command.start, command.name)
+            if is_test and "add" in command.name
+            else place_of_package(every, providers[0])
+        )
         yield BuildDefect(source, *place, message)
     yield from _exported(files, source, every, found)
 
@@ -233,7 +237,7 @@ def _uses(every: list[CMakeCommand]) -> Iterator[tuple[int, str, int]]:
         yield from ((at, word, start) for word, start in words if not word.isupper() and "$" not in word)
 
 
-def _place(every: list[CMakeCommand], name: str) -> tuple[int, str]:
+def place_of_package(every: list[CMakeCommand], name: str) -> tuple[int, str]:
     """Return offset and text after which find_package should find a package: by the alphabet if that orders them."""
     finds = [each for each in every if each.name == "find_package" and each.words]
     of_catkin = next((each for each in finds if each.words[0][0] == "catkin"), None)

@@ -14,7 +14,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
-from urdfkit.lint.facts.packaging.cmake_packages import found_packages, provided
+from urdfkit.lint.facts.packaging.cmake_packages import found_packages, place_of_package, provided
 from urdfkit.lint.facts.ros_packages import is_slip, names
 from urdfkit.lint.project.code_files import MAX_BYTES
 from urdfkit.record import record
@@ -160,6 +160,8 @@ def code_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]) -
         return  # missing packages are a consequence
     is_catkin = "catkin" in found
     folders = {word for each in every if each.name == "include_directories" for word, _ in each.words}
+    if is_catkin:
+        yield from _without_component(source, own, files, every, found)
     for target in own.values():
         if is_catkin:
             yield from _without_catkin(source, target, own, files)
@@ -218,6 +220,25 @@ def _without_catkin(
     if not any("$" in word and "PROJECT_NAME" not in word and "<" not in word for word in words):
         message = f"target `{target.name}` is not linked with `${{catkin_LIBRARIES}}`"
         yield BuildDefect(source, *target.place, message)
+
+
+def _without_component(
+    source: Source, own: Mapping[str, Target], files: BuildFiles, every: list[CMakeCommand], found: Mapping[str, int]
+) -> Iterator[BuildDefect]:
+    """Yield the packages in package.xml whose headers targets include, and that ``find_package(catkin …)`` lacks."""
+    near = neighbours(files.folder)
+    covered = provided(found, near)
+    if covered is None:
+        return
+    built = {text for text, _ in files.tags("depend", "build_depend", "build_export_depend")}
+    for target in own.values():
+        for header in target.headers_of_all(files.folder):
+            package = header.partition("/")[0]
+            is_needed = package in built and (package in names() or package in near)
+            if is_needed and package not in {*covered, files.name} and not files.has(f"include/{header}"):
+                covered.add(package)
+                message = f"find_package(catkin) lacks `{package}`, whose headers target `{target.name}` includes"
+                yield BuildDefect(source, *place_of_package(every, package), message, "warning")
 
 
 def _without_package(
