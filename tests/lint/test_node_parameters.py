@@ -143,6 +143,8 @@ BAD = [
     ("mux", "priority: 100", "priority: high", "K971", 7, "`topics.keys.priority` is `high`, which is not a number"),
     ("mux", "priority: 100", "priority: 100.0", "K974", 7, "write 100"),
     ("mux", "topics:", "topic:", "K971", 3, "`twist_mux` has no parameter `topic`; did you mean `topics`?"),
+    ("mux", "      e_stop:", "    e_stop:", "K971", 13, "`e_stop` belongs in `locks`, which is empty; indent it"),
+    ("joystick", "      x: 1", "    x: 1", "K971", 7, "`x` belongs in `axis_linear`, which is empty; indent it"),
     ("mux", "priority: 255", "priority: 50", "K971", 16, "lock `e_stop` has the priority 50 and does not stop"),
     (
         "monitor",
@@ -223,6 +225,11 @@ def test_each_defect_has_a_finding_at_its_line(tmp_path, name, old, new, code, l
     assert first[:2] == (code, line)
     assert message in first[2]
     assert len(others) <= new.count("\n")
+
+
+def test_an_empty_group_before_another_parameter_has_no_finding(tmp_path):
+    lock = FILES["mux"].partition("    locks:\n")[2]
+    assert findings(tmp_path, "mux", f"locks:\n{lock}", "locks:\n    use_stamped: true\n") == []
 
 
 @pytest.mark.parametrize("name", FILES)

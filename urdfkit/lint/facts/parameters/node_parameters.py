@@ -1,7 +1,7 @@
-"""Parameters of well-known ROS 2 nodes in YAML: values of the wrong type, names of other nodes, nested lists."""
+"""Parameters of well-accepted ROS 2 nodes in YAML: values of the wrong type, names of other nodes, nested lists."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
 
 from urdfkit.defect_message import Suggestion
@@ -38,6 +38,7 @@ def node_defects(source: Source) -> Defects:
                     yield (parameter if value.kind == "group" else value), problem
         if kind.startswith("teleop"):
             yield from _shared_axes(group)
+        yield from outside_of_empty_groups(group, schemas().get(kind, ()))
         for node in walk(group):
             yield from _renamed_in_groups(node)
     yield from _nested_lists(source)
@@ -101,6 +102,26 @@ def parameters(group: Node, prefix: str = "", depth: int = 0) -> Iterator[tuple[
         yield f"{prefix}{key.text}", key, value
         if value.kind == "group" and depth < 4:
             yield from parameters(value, f"{prefix}{key.text}.", depth + 1)
+
+
+def outside_of_empty_groups(group: Node, rows: Iterable[tuple[str, str]]) -> Defects:
+    """Yield the first entry after each empty group of a section that belongs in this group.
+
+    Args:
+        group: the section.
+        rows: the patterns of its parameters with their types.
+    """
+    patterns = [pattern for pattern, _ in rows]
+    accepted = {pattern.partition(".")[0] for pattern in patterns}
+    for at, (key, value) in enumerate(group.entries[:-1]):
+        inner = [pattern.removeprefix(f"{key.text}.") for pattern in patterns if pattern.startswith(f"{key.text}.")]
+        if not inner or value.kind != "text" or value.text or not value.is_plain:
+            continue
+        name, member = group.entries[at + 1]
+        parts = {pattern.removeprefix("*.") for pattern in inner if pattern.startswith("*.")}
+        is_member = bool(member.entries) and {each.text for each, _ in member.entries} <= parts
+        if name.text not in accepted and (is_member or name.text in inner):
+            yield name, f"`{name.text}` belongs in `{key.text}`, which is empty; indent it"
 
 
 def _is_named_by(group: Node, name: str) -> bool:

@@ -16,7 +16,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents_in, nodes, number_of
 from urdfkit.lint.facts.parameters.misspelt_names import is_misspelt
-from urdfkit.lint.facts.parameters.node_parameters import parameters, type_problem
+from urdfkit.lint.facts.parameters.node_parameters import outside_of_empty_groups, parameters, type_problem
 from urdfkit.lint.facts.parameters.schemas import rows_of, schemas
 from urdfkit.lint.facts.plugins.plugin_schemas import CLASSES, OF_ROS1
 
@@ -107,6 +107,7 @@ _NOT_NEGATIVE = (
 def typed_defects(source: Source) -> Defects:
     """Yield the parameters of plugins, controllers and nodes in the tables that have a wrong type, name or sign."""
     for kind, group, rows in typed_groups(source):
+        yield from outside_of_empty_groups(group, rows)
         valid = {name.rpartition(".")[2] for name, _ in rows}
         written = {name.rpartition(".")[2] for name, _, _ in parameters(group)}
         for name, parameter, value in parameters(group):
