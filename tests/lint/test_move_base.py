@@ -47,6 +47,8 @@ MISTAKES = [
     ("costmap.yaml", "  inflation:", "  robot_radius: 0.4\n  inflation:", 9, "no effect next to `footprint`"),
     ("costmap.yaml", "frequency: 5.0", "frequency: 0.5", 4, "the robot drives 1 m between two updates"),
     ("costmap.yaml", "resolution: 0.05", "resolution: 0.3", 8, "more than the inscribed radius of the robot, 0.2 m"),
+    ("costmap.yaml", "[-0.3, 0.2]]", "[0.3, 0.2]]", 6, "`footprint` has the corner [0.3, 0.2] twice; check the signs"),
+    ("costmap.yaml", "[0.3, -0.2]", "[0.3, 0.2]", 6, "`footprint` has the corner [0.3, 0.2] twice; check the signs"),
     ("costmap.yaml", "width: 3.0", "width: 0.3", 7, "but the robot extends 0.361 m"),
     (
         "teb.yaml",

@@ -23,6 +23,9 @@ Defects = Iterator[tuple[Source, Node, str]]
 Points = list[tuple[float, float]]
 
 _MARKING = ("StaticLayer", "ObstacleLayer", "VoxelLayer", "RangeSensorLayer", "SpatioTemporalVoxelLayer")
+_ROUNDING = 1e-6
+"""Largest inscribed radius of a footprint that is 0 but for rounding [m]."""
+
 _FALSE = ("false", "False", "FALSE")
 
 
@@ -153,6 +156,11 @@ def _footprint(each: Costmap) -> Defects:
     if found is None:
         return
     node, points = found
+    twice = next((point for at, point in enumerate(points) if point in points[:at]), None)
+    # Without one of its corners, a rectangle around the origin is a triangle with a side through it.
+    if twice is not None and inscribed_radius(points) < _ROUNDING:
+        yield each.source, node, f"`footprint` has the corner [{twice[0]:g}, {twice[1]:g}] twice; check the signs"
+        return
     sides = list(pairwise([*points, points[0]]))
     for at, first in enumerate(sides):
         if any(_cross(*first, *other) for other in sides[at + 2 :]):
@@ -179,7 +187,7 @@ def _window(each: Costmap, shape: Costmap | None) -> Defects:
         return
     cell, inner = each.group.find("resolution"), inscribed_radius(found[1])
     step = number_of(cell)
-    if cell is not None and step is not None and 0.0 < inner < step:
+    if cell is not None and step is not None and _ROUNDING < inner < step:
         message = f"`resolution` is {step:g} m, more than the inscribed radius of the robot, {inner:.3g} m"
         yield each.source, cell, message
     if rolls is None or rolls.text in _FALSE:
