@@ -109,6 +109,21 @@ def test_a_wrong_prefix_is_one_finding_at_the_macro_call(old, new, lines, tmp_pa
     assert [each.line for each in lint("arm.urdf.xacro", select=("T20", "Z80"))] == lines
 
 
+@pytest.mark.parametrize("is_in_two_files", [False, True])
+def test_a_property_that_two_files_use_under_another_name_is_renamed(is_in_two_files, tmp_path, monkeypatch):
+    """The word that only the definition has occurs in other names, too, as after a slip in each use."""
+    monkeypatch.chdir(tmp_path)
+    head = '<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    link = '<link name="{}"><visual><geometry><sphere radius="${{max_steer}}"/></geometry></visual></link>\n'
+    joint = '<joint name="steering" type="fixed"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/></joint>'
+    (tmp_path / "part.xacro").write_text(f"{head}\n{link.format('b')}</robot>\n")
+    other = '<xacro:include filename="part.xacro"/>' if is_in_two_files else link.format("b").strip()
+    text = f'{head}\n<xacro:property name="max_steering" value="0.6"/>\n{link.format("a")}{other}\n{joint}\n</robot>\n'
+    (tmp_path / "cart.urdf.xacro").write_text(text)
+    found = lint("cart.urdf.xacro", select=["X104"])
+    assert [each.line for each in found] == ([2] if is_in_two_files else [3])
+
+
 def test_a_wrong_property_in_names_is_one_finding_there(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "arm.urdf.xacro").write_text(PREFIXED.replace('value="grip"', 'value="gripp"'))

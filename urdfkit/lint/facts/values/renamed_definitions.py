@@ -47,7 +47,8 @@ class RenamedDefinitions:
         """Return whether the definition has the wrong name.
 
         That is so if no other place uses the defined name, and if several places have the undefined name, or if only
-        the undefined name consists of words that other names have too. It is not if only the defined name does.
+        the undefined name consists of words that other names have too. It is not if only the defined name does, and if
+        one file has all places.
 
         Args:
             meant: the defined name that a finding suggests.
@@ -62,7 +63,8 @@ class RenamedDefinitions:
         own, strange = words - others, others - words
         is_shared = all(self._has_word(word, places) for word in strange)
         is_own_shared = any(self._has_word(word, {definition}) for word in own)
-        if is_own_shared and not is_shared:  # The same slip in several places.
+        is_in_files = len({file for file, _ in places}) > 1
+        if is_own_shared and not is_shared and not is_in_files:  # The same slip in several places.
             return False
         return max(uses, len(places)) >= _SMALLEST or (bool(own) and is_shared and not is_own_shared)
 
