@@ -475,6 +475,17 @@ def test_names_of_managed_nodes_in_an_xml_launch_file(tmp_path, names, more, mes
     assert found(cart, "L117") == ([("localization.launch.xml", 10, message)] if message else [])
 
 
+@pytest.mark.parametrize("name", ["planner_server", "driver"])
+def test_a_listed_server_that_nothing_starts_stands_for_the_only_unlisted_node(tmp_path, name):
+    cart = package(tmp_path / "cart", "ament_cmake", "nav2_map_server", "nav2_amcl", "nav2_lifecycle_manager")
+    names = f"""<param name="node_names" value="['map_server', '{name}']"/>"""
+    write(cart / "launch/other.launch.xml", "<launch/>\n")
+    more = '<include file="$(find-pkg-share cart)/launch/other.launch.xml"/>\n'
+    write(cart / "launch/localization.launch.xml", SERVERS.format(names, more))
+    missing = "no launch file of these packages starts the node `planner_server`; did you mean `amcl`?"
+    assert found(cart, "L117") == [("localization.launch.xml", 10, UNLISTED if name == "driver" else missing)]
+
+
 FILTERS = """ekf:
   ros__parameters:
     imu0: imu/data

@@ -239,9 +239,11 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str], repor
                 and re.search(r"IncludeLaunchDescription|<include\b|- include:", source.text) is None
             ):
                 unknown.append((name, span))
-        meant = {_RENAMED.get(name) for name, _ in unknown}
-        for name, span in unknown:
-            hint = Suggestion(_RENAMED.get(name), name)
+        missing = [(name, span) for name, span in listed if name in NODES - own - started - reported]
+        replaced = {name: unlisted[0][0] for name, _ in missing} if len(missing) == len(unlisted) == 1 else {}
+        meant = {_RENAMED.get(name) for name, _ in unknown} | set(replaced.values())
+        for name, span in missing if replaced else unknown:
+            hint = Suggestion(replaced.get(name) or _RENAMED.get(name), name)
             yield source, span, f"no launch file of these packages starts the node `{name}`" + hint
         for name, span in unlisted:
             if name in meant | reported:
