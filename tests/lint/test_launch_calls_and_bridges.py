@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.lint.test_launch_mistakes import found, package, write
+from urdfkit.lint import lint
 
 NODELETS = """<launch>
   <node pkg="nodelet" type="nodelet" name="manager" args="manager"/>
@@ -303,3 +304,45 @@ def test_an_include_without_the_clock_next_to_gazebo(tmp_path, place, default, e
     for name in ("moves", "sees"):
         write(cart / f"launch/{name}.launch.py", INCLUDED.replace("DEFAULT", default))
     assert [line for _, line, _ in found(cart, "L121")] == expected
+
+
+@pytest.mark.parametrize(
+    ("plugin", "ros", "type", "message"),
+    [
+        (
+            "ignition-gazebo-imu",
+            "Imu",
+            "ignition.msgs.Imu",
+            "unknown Gazebo type `ignition.msgs.Imu`; did you mean `ignition.msgs.IMU`?",
+        ),
+        (
+            "ignition-gazebo-imu",
+            "Imu",
+            "ignition.msgs.Image",
+            "cannot convert between `sensor_msgs/msg/Imu` and `ignition.msgs.Image`; use `ignition.msgs.IMU`",
+        ),
+        (
+            "gz-sim-imu",
+            "Imu",
+            "ignition.msgs.Imu",
+            "unknown Gazebo type `ignition.msgs.Imu`; did you mean `gz.msgs.IMU`?",
+        ),
+        (
+            "gz-sim-imu",
+            "Imu",
+            "ignition.msgs.IMU",
+            "`ignition.msgs.IMU` is a type of Gazebo Fortress; did you mean `gz.msgs.IMU`?",
+        ),
+        ("ignition-gazebo-imu", "Imu", "ignition.msgs.IMU", None),
+    ],
+)
+def test_a_type_of_the_messages_has_the_namespace_of_the_release(tmp_path, plugin, ros, type, message):
+    cart = package(tmp_path / "cart", "ament_cmake", "ros_gz_bridge")
+    sensor = '<gazebo reference="base"><sensor name="imu" type="imu"><topic>imu</topic></sensor></gazebo>'
+    system = f'<gazebo><plugin name="ignition::gazebo::systems::Imu" filename="{plugin}-system"/></gazebo>'
+    write(cart / "cart.urdf", f'<robot name="cart"><link name="base"/>{sensor}{system}</robot>\n')
+    bridge = (
+        f"- topic_name: imu\n  ros_type_name: sensor_msgs/msg/{ros}\n  gz_type_name: {type}\n  direction: GZ_TO_ROS\n"
+    )
+    write(cart / "config/bridge.yaml", bridge)
+    assert [each.message for each in lint(cart, select=["K969"])] == ([message] if message else [])

@@ -103,7 +103,7 @@ class BridgeMisspelt(RobotRule):
             for word in malformed_in_launch(source):
                 yield self._at(source, word, f"`{word.name}` is not of the form `topic@ROS type@Gazebo type`")
         for source, bridge in bridges:
-            defect = _type_defect(bridge) or _direction_defect(bridge) or _former_type(bridge, model)
+            defect = _type_defect(bridge, model) or _direction_defect(bridge) or _former_type(bridge, model)
             if defect is not None:
                 yield self._at(source, *defect)
         for source, topic, message in unbridged(bridges, model):
@@ -141,14 +141,18 @@ class BridgeMisspelt(RobotRule):
         return self.at_span(source.span(reference.start, reference.end), message, kind=kind)
 
 
-def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
+_FORMER = "ignition.msgs."
+"""Namespace of the messages of Gazebo Fortress."""
+
+
+def _type_defect(bridge: Bridged, model: Model) -> tuple[Named, str] | None:
     """Return an invalid type with its message; None if both types are valid."""
     compatible_types = pairs()
     gazebo_types = {name for names in compatible_types.values() for name in names}
     ros_type = bridge.ros.name if bridge.ros is not None else ""
     gz_type = bridge.gazebo.name.replace("::", ".") if bridge.gazebo is not None else ""
-    if gz_type.startswith("ignition.msgs."):
-        gz_type = f"gz.msgs.{gz_type.removeprefix('ignition.msgs.')}"
+    space = _FORMER if gz_type.startswith(_FORMER) and _former_type(bridge, model) is None else "gz.msgs."
+    gz_type = f"gz.msgs.{gz_type.removeprefix(_FORMER)}" if gz_type.startswith(_FORMER) else gz_type
     if bridge.ros is not None and ros_type in gazebo_types:
         return bridge.ros, f"expected the ROS type before the Gazebo type, found `{bridge.ros.name}`"
     if bridge.ros is not None and ros_type not in compatible_types:
@@ -160,26 +164,27 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
         )
     if bridge.gazebo is not None and gz_type not in gazebo_types:
         suggestion = nearest(gz_type, gazebo_types, cutoff=0.85)
+        suggestion = suggestion.replace("gz.msgs.", space) if suggestion is not None else None
         return (
             (bridge.gazebo, f"unknown Gazebo type `{bridge.gazebo.name}`" + Suggestion(suggestion, bridge.gazebo.name))
             if suggestion
             else None
         )
     if bridge.gazebo is not None and ros_type and gz_type not in compatible_types[ros_type]:
-        compatible = " or ".join(f"`{name}`" for name in compatible_types[ros_type])
+        compatible = " or ".join(f"`{name.replace('gz.msgs.', space)}`" for name in compatible_types[ros_type])
         return bridge.gazebo, f"cannot convert between `{ros_type}` and `{bridge.gazebo.name}`; use {compatible}"
     return None
 
 
 def _former_type(bridge: Bridged, model: Model) -> tuple[Named, str] | None:
     """Return a type of Gazebo Fortress in a bridge of a robot with plugins of a later release, with its message."""
-    if bridge.gazebo is None or not bridge.gazebo.name.startswith("ignition.msgs."):
+    if bridge.gazebo is None or not bridge.gazebo.name.startswith(_FORMER):
         return None
-    if not any(
-        re.search(r"\bgz-sim-|\bgz::sim::|\bgz_ros2_control\b", each.text) for each in model.expanded.sources.values()
-    ):
+    texts = [each.text for each in model.expanded.sources.values()]
+    later, former = r"\bgz-sim-|\bgz::sim::|\bgz_ros2_control\b", r"\bign_ros2_control\b"
+    if not any(re.search(later, text) for text in texts) or any(re.search(former, text) for text in texts):
         return None
-    right = f"gz.msgs.{bridge.gazebo.name.removeprefix('ignition.msgs.')}"
+    right = f"gz.msgs.{bridge.gazebo.name.removeprefix(_FORMER)}"
     return bridge.gazebo, f"`{bridge.gazebo.name}` is a type of Gazebo Fortress" + Suggestion(right, bridge.gazebo.name)
 
 
@@ -244,7 +249,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
             if topic.startswith("model/"):  # the defaults of plugins, unless the robot names its own topic in this way
                 free = [name for name in free if re.fullmatch(rf"model/[^/]+/{topic.rpartition('/')[2]}", name)]
             texts = [each.text for each in model.expanded.sources.values()]
-            is_convertible = _type_defect(bridge) is None
+            is_convertible = _type_defect(bridge, model) is None
             if (
                 free
                 and is_convertible

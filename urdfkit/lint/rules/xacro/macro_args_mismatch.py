@@ -41,9 +41,9 @@ class MacroArgsMismatch(FaultRule):
             yield self.at(model, position, message, attribute="params", help=f"write `*{block}` in params")
             return
         if (block := _only_unused_block(fault, model)) is not None and not suggestion_of(fault.message):
-            message, name = f"block `{fault.name}` is not defined", fault.name or ""
-            names = (name,)
-            yield self.at(model, fault, message + Suggestion(block, name), attribute=fault.attribute, names=names)
+            written = fault.name or ""
+            message = f"block `{written}` is not defined" + Suggestion(block, written)
+            yield self.at(model, fault, message, attribute=fault.attribute, names=(written,))
             return
         unknown, missing = self._mismatched_parameters(fault, model)
         if not unknown or not missing:
