@@ -1,4 +1,4 @@
-"""Parameters of well-accepted ROS 2 nodes in YAML: values of the wrong type, names of other nodes, nested lists."""
+"""Parameters of well-known ROS 2 nodes in YAML: values of the wrong type, names of other nodes, nested lists."""
 
 import re
 from collections.abc import Iterable, Iterator
