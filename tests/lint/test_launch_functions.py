@@ -62,6 +62,12 @@ def test_a_missing_file_is_reported_where_a_call_names_it(tmp_path, path, name):
     assert [(line, text[: len(message)]) for _, line, text in found(folder, "K958")] == [(19, message)]
 
 
+def test_a_missing_file_is_reported_at_its_line_of_a_path(tmp_path):
+    path = f'os.path.join({SHARE},\n        "launch",\n        "another.launch.py")'
+    folder = cart(tmp_path, "name", "return name", 'action("a")', INCLUDE.format(path).removeprefix("return "))
+    assert [line for _, line, _ in found(folder, "K958")] == [21]
+
+
 @pytest.mark.parametrize("name", ["name", 'f"{name}_node"', 'name + "_node"', '"joy"'])
 def test_a_name_of_two_nodes_is_reported_at_the_second_call(tmp_path, name):
     body = "return " + JOY.format(f"name={name}")

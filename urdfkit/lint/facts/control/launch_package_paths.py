@@ -181,4 +181,8 @@ def paths_in_python(source: Source, tree: ast.Module, reader: LaunchReader) -> I
         assert isinstance(node, ast.expr)
         found = reader.path(node)
         if found is not None and found[1].strip("/"):
-            yield PackagePath(found[0], found[1].strip("/"), *place(source, at_call(node) or node))
+            constants = [
+                each for each in ast.walk(node) if isinstance(each, ast.Constant) and each.lineno > node.lineno
+            ]
+            last = max(constants, key=lambda each: (each.lineno, each.col_offset), default=node)
+            yield PackagePath(found[0], found[1].strip("/"), *place(source, at_call(node) or last))
