@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.description.launch.python_constants import name_of
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import node_texts, python_tree
@@ -38,6 +39,7 @@ def own_folder(model: Model, package: str) -> Path | None:
     return folder
 
 
+@kept
 def own_publications(model: Model, package: str) -> list[tuple[str, str]] | None:
     """Return topic and type without package of the sensor messages and odometry that a package publishes.
 
@@ -61,6 +63,7 @@ def own_publications(model: Model, package: str) -> list[tuple[str, str]] | None
     return found if is_read else None
 
 
+@kept
 def own_subscriptions(model: Model, package: str) -> dict[str, str]:
     """Return topic → type without package of the sensor messages and odometry that the code of a package reads.
 
