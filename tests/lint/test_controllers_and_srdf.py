@@ -179,15 +179,23 @@ def test_the_only_missing_pair_of_adjacent_links_is_reported(pairs: str, expecte
 
 
 @pytest.mark.parametrize(
-    ("left_out", "expected"),
+    ("left_out", "more", "expected"),
     [
-        ("", []),
-        ("outer inner", ["M110 links `outer` and `inner` overlap with every joint at zero, but "]),
-        ("left_arm left_tip", ["M110 links `left_arm` and `left_tip` are the counterparts of a pair that the SRDF "]),
-        ("left_arm left_hand", ["M110 links `left_arm` and `left_hand` are adjacent, but "]),
+        ("", "", []),
+        ("", "left_arm right_hand", []),
+        ("left_arm left_tip", "left_arm right_hand", []),
+        ("outer inner", "", ["M110 links `outer` and `inner` overlap with every joint at zero, but "]),
+        (
+            "left_arm left_tip",
+            "",
+            ["M110 links `left_arm` and `left_tip` are the counterparts of a pair that the SRDF "],
+        ),
+        ("left_arm left_hand", "", ["M110 links `left_arm` and `left_hand` are adjacent, but "]),
     ],
 )
-def test_pairs_of_links_that_are_not_adjacent_are_compared(left_out: str, expected: list[str], tmp_path: Path) -> None:
+def test_pairs_of_links_that_are_not_adjacent_are_compared(
+    left_out: str, more: str, expected: list[str], tmp_path: Path
+) -> None:
     limbs = [(side, sign) for side, sign in (("left", 1), ("right", -1))]
     sizes = {"outer": 0.2, "middle": 0.16, "inner": 0.12}
     sizes |= {f"{side}_{part}": 0.02 for side, _ in limbs for part in ("arm", "hand", "tip")}
@@ -207,7 +215,7 @@ def test_pairs_of_links_that_are_not_adjacent_are_compared(left_out: str, expect
     )
     (tmp_path / "limb.urdf").write_text(LIMB.format(links=links, joints=written))
     pairs = [f"{parent} {child}" for parent, child, _, _ in joints] + ["outer inner"]
-    pairs += [f"{side}_arm {side}_tip" for side, _ in limbs]
+    pairs += [f"{side}_arm {side}_tip" for side, _ in limbs] + [more] * bool(more)
     names = [pair.split() for pair in pairs if pair != left_out]
     disabled = "".join(f'<disable_collisions link1="{a}" link2="{b}" reason="Default"/>' for a, b in names)
     group = '<group name="limb"><chain base_link="outer" tip_link="inner"/></group>'

@@ -54,7 +54,7 @@ def unlike_other_side(model: Model, disabled: Pairs) -> Iterator[Missing]:
     parents = {joint.child: joint.parent for joint in model.robot.joints}
     solid = {link.name for link in model.robot.links if link.collisions}
     missing: list[Missing] = []
-    equal = 0
+    equal, are_near = 0, False
     for pair, element in disabled.items():
         if len(pair) != 2 or not pair <= solid:
             continue
@@ -64,9 +64,10 @@ def unlike_other_side(model: Model, disabled: Pairs) -> Iterator[Missing]:
             continue
         if counterpart in disabled:
             equal += 1
-        elif not counterpart & pair and any(parents.get(parents.get(link)) in pair - {link} for link in pair):
+        else:
+            are_near = not counterpart & pair and any(parents.get(parents.get(link)) in pair for link in pair)
             missing.append(((sides[0], sides[1]), element, "are the counterparts of a pair that the SRDF disables"))
-    if len(missing) == 1 and equal >= 2 * _FEWEST:
+    if len(missing) == 1 and are_near and equal >= 2 * _FEWEST:
         yield missing[0]
 
 
