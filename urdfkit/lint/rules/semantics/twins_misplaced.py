@@ -262,7 +262,13 @@ def _equal_below_mirrored(model: Model) -> Iterator[tuple[Joint, str]]:
 
 
 def _are_mirrored_about(pair: Twins, links: tuple[Link, Link], model: Model, least: float) -> bool:
-    """Return whether twins off the middle of a symmetric parent have the same y, but mirrored shapes."""
+    """Return whether twins off the middle of a symmetric parent have the same y, but mirrored shapes.
+
+    The blades of scissors, on one pivot, turn in opposite directions.
+    """
+    limits = [(each.limit.lower, each.limit.upper) if each.limit else None for each in (pair.first, pair.second)]
+    if pair.first.axis != pair.second.axis or limits[0] != limits[1]:
+        return False
     parent = model.extents.get(pair.first.parent or "")
     if parent is None or abs(pair.first.origin.xyz[1]) <= least or pair.first.origin.rpy != pair.second.origin.rpy:
         return False
