@@ -19,6 +19,12 @@ _FAR, _DEEP = 0.003, 0.005
 _PART = 0.02
 """Smallest part of the size of the parent link that these distances are."""
 
+_DETACHED = 0.1
+"""Smallest gap between links on a wrong side, as a part of the size of the smaller one."""
+
+_NEARER = 0.1
+"""Largest gap between these links with the opposite sign, as a part of the gap."""
+
 _OVERLAP = 0.3
 """Smallest part of the child link that is inside of the shape of the parent link of a joint that is too deep."""
 
@@ -81,6 +87,35 @@ def misplaced(model: Model) -> Iterator[Place]:
         is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None and not is_in_tube
         if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
+
+
+def on_wrong_side(model: Model) -> Iterator[tuple[Joint, float, int]]:
+    """Yield the fixed joints whose links are apart, but meet with the opposite sign of one coordinate.
+
+    One link then ends exactly where the other starts along that axis. The values are the joint, the gap between the
+    boxes of its links, and the index of the coordinate.
+    """
+    meshed = {link.name for _, _, link in model.meshes}
+    for joint in model.robot.joints:
+        parent, child = (model.extents.get(name or "") for name in (joint.parent, joint.child))
+        if joint.type != "fixed" or parent is None or child is None or any(joint.origin.rpy):
+            continue
+        gap = max(_gaps(joint.origin.xyz, parent, child))
+        if gap < _DETACHED * min(parent.diagonal, child.diagonal) or {joint.parent, joint.child} & meshed:
+            continue
+        if model.is_unresolved(_origin(joint), "xyz"):
+            continue
+        for k in range(3):
+            x, y, z = (-part if axis == k else part for axis, part in enumerate(joint.origin.xyz))
+            gaps = _gaps((x, y, z), parent, child)
+            if abs(gaps[k]) <= _EXACT and max(gaps) <= _NEARER * gap:
+                yield joint, gap, k
+
+
+def _gaps(offset: Vector, parent: Extent, child: Extent) -> list[float]:
+    """Return the gaps between the boxes of two links along each axis [m]; negative where they overlap."""
+    sides = zip(offset, parent.low, parent.high, child.low, child.high, strict=True)
+    return [max(at + low - outer, inner - at - high) for at, inner, outer, low, high in sides]
 
 
 def along_tubes(model: Model) -> Iterator[tuple[Joint, Element, float, float]]:

@@ -14,7 +14,8 @@ class JointOffItsParent(RobotRule):
     may be inside.
 
     Also reports the only joint that is on the axis of a slender link, but not at its end: if two other joints are at
-    the ends of such links, or if it is as far along the link as its child link is long.
+    the ends of such links, or if it is as far along the link as its child link is long. Also reports a fixed joint
+    whose links are apart, but meet exactly with the opposite sign of one coordinate.
 
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually
@@ -74,7 +75,7 @@ class JointOffItsParent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the only joint that is not at the surface of its parent link."""
-        from urdfkit.lint.facts.placement.joint_places import along_tubes, misplaced
+        from urdfkit.lint.facts.placement.joint_places import along_tubes, misplaced, on_wrong_side
 
         if model.is_incomplete:
             return
@@ -94,4 +95,14 @@ class JointOffItsParent(RobotRule):
                 message += f"not at its end, at {length:.3g} m"
                 help = "check which length the origin is computed with"
                 names = tuple(name for name in (joint.child, joint.parent) if name)
+                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
+                found.add(joint.name)
+        for joint, gap, k in on_wrong_side(model):
+            if joint.name not in found:
+                found.add(joint.name)
+                message = f"link `{joint.child}` is {gap:.3g} m away from its parent link `{joint.parent}`; "
+                message += f"with the opposite sign of {'xyz'[k]} it starts where its parent ends"
+                element = joint.element.find("origin") or joint.element
+                names = tuple(name for name in (joint.child, joint.parent) if name)
+                help = "check the sign of the coordinate"
                 yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
