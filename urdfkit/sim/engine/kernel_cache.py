@@ -43,6 +43,7 @@ KERNEL_MODULES = (
     "math/simd_types",
     "math/spatial_algebra",
     "solver/active_set_newton",
+    "solver/attempts",
     "solver/augmented_newton",
     "solver/delassus",
     "solver/penalty_rows",
