@@ -20,8 +20,8 @@ class HardwareInterfaceUnknown(RobotRule):
 
     ## What it does
     Checks for ``<hardwareInterface>`` values that nearly match an interface of the hardware_interface package.
-    Interfaces of other packages are accepted. If the robot uses gazebo_ros_control, a transmission is reported as a
-    note if the default hardware does not simulate it, because it has several joints or an interface other than
+    Interfaces of other packages are accepted. In robots with gazebo_ros_control, transmissions that its default
+    hardware does not simulate are reported as notes: transmissions with several joints, or with an interface other than
     position, velocity or effort.
 
     ## Why is this bad?

@@ -9,8 +9,9 @@ class HardwareInterfaceUnprefixed(RobotRule):
     """A hardware interface has no package prefix.
 
     ## What it does
-    Checks for interfaces such as ``EffortJointInterface`` without the prefix ``hardware_interface/``. Those of
-    actuators are checked only if no joint of the transmission has one: gazebo_ros_control does not read them otherwise.
+    Checks for interfaces such as ``EffortJointInterface`` without the prefix ``hardware_interface/``. The interfaces of
+    actuators are checked only if no joint of the transmission has an interface, because gazebo_ros_control ignores them
+    otherwise.
 
     ## Why is this bad?
     gazebo_ros_control logs a deprecation warning at every start.

@@ -9,8 +9,9 @@ class Ros2ControlMimic(RobotRule):
     """The ``mimic`` parameter of a joint in ``<ros2_control>`` contradicts the robot.
 
     ## What it does
-    Compares the parameter with the joints and with ``<mimic>`` of the same joint. Since Jazzy, also reports a mimic
-    joint with a command interface. Without a target, the release is that which the files of the packages name.
+    Compares the parameter with the joints of the robot and with the ``<mimic>`` of the same joint. From Jazzy on, also
+    reports a mimic joint with a command interface. Without a target, the rule assumes the release that the files of the
+    packages name.
 
     ## Why is this bad?
     The hardware and ``robot_state_publisher`` couple the joint to different joints, or the description is rejected.

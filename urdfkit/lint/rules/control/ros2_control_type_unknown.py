@@ -15,8 +15,8 @@ class Ros2ControlTypeUnknown(RobotRule):
     without ``type``.
 
     ## Why is this bad?
-    The resource manager skips a block of unknown type, so no controller finds its interfaces. If a block has no type,
-    it rejects the whole robot.
+    The resource manager skips a block of unknown type, so no controller finds its interfaces. It rejects the whole
+    robot if a block has no type.
 
     ## Example
     ```diff

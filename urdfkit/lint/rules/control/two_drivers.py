@@ -11,9 +11,10 @@ class TwoDrivers(RobotRule):
     """A joint is driven by a controller and by another Gazebo plugin.
 
     ## What it does
-    In robots with gazebo_ros_control, checks for joints that have a transmission and that a drive plugin or joint
-    controller of the same Gazebo generation also moves. The same applies to joints with a command interface in
-    ``<ros2_control>`` if its hardware runs in Gazebo. Sensors and publishers only read their joints.
+    In robots with gazebo_ros_control, checks for joints with a transmission that are also moved by a drive plugin or a
+    joint controller of the same Gazebo generation. Joints with a command interface in ``<ros2_control>`` are checked in
+    the same way, if the hardware runs in Gazebo. Sensors and joint state publishers are accepted, because they only
+    read joints.
 
     ## Why is this bad?
     The controller and the plugin both set the joint in every step, so the joint jerks or follows whichever runs last.

@@ -15,8 +15,8 @@ class NanOrInf(RobotRule):
     """A pose, size, mass or inertia is not finite or is implausibly large.
 
     ## What it does
-    Checks for ``nan`` and ``inf``, and for poses, sizes, masses and inertias beyond 1e10, which some exporters write
-    instead of infinity. Joint limits may be infinite.
+    Checks for ``nan`` and ``inf``, and for poses, sizes, masses and inertias with a magnitude above 1e10, which some
+    exporters write instead of infinity. Joint limits may be infinite.
 
     ## Why is this bad?
     A single such value turns all positions into NaN, and simulators stop or diverge.
@@ -51,6 +51,6 @@ class NanOrInf(RobotRule):
                 if text is None or (len(text) < 11 and "e" not in text.lower()):
                     continue
                 if any(LARGEST < abs(value) <= BEYOND for value in numbers(text) or ()):
-                    message = f'{attribute}="{text}" of <{element.tag}> is larger than {LARGEST:g}'
+                    message = f'{attribute}="{text}" of <{element.tag}> has a value of magnitude above 1e10'
                     help = "write the real value in SI units"
                     yield self.at(model, element, message, attribute=attribute, help=help)

@@ -11,7 +11,7 @@ class WrongXacroNamespaceUri(SourceRule):
 
     ## What it does
     Compares ``xmlns:xacro`` on the root element with the namespaces that xacro has used:
-    ``http://www.ros.org/wiki/xacro``, with or without ``www.``, ``http://wiki.ros.org/xacro``, and the same with
+    ``http://www.ros.org/wiki/xacro`` (also without ``www.``) and ``http://wiki.ros.org/xacro``, each with ``http`` or
     ``https``.
 
     ## Why is this bad?

@@ -11,9 +11,9 @@ class FixedJointLumping(RobotRule):
     """A plugin or force-torque sensor uses a link or joint that Gazebo merges away at a fixed joint.
 
     ## What it does
-    Checks links that plugins name (``body_name``, ``linkName`` …), and joints with a force-torque sensor. Reports links
-    and joints at a fixed joint that is not kept by ``preserveFixedJoint`` or ``disableFixedJointLumping``. ``bodyName``
-    is not checked, because sdformat updates it.
+    Checks links that plugins name (``body_name``, ``linkName`` …), and joints with a force-torque sensor. Reports child
+    links of fixed joints, and fixed joints, unless ``preserveFixedJoint`` or ``disableFixedJointLumping`` keeps the
+    joint. ``bodyName`` is not checked, because sdformat updates it.
 
     ## Why is this bad?
     Gazebo merges the child link of a fixed joint into its parent link. The model then has no link or joint of that

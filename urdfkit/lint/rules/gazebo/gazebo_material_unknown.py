@@ -9,9 +9,9 @@ class GazeboMaterialUnknown(RobotRule):
     """A Gazebo material is unknown.
 
     ## What it does
-    Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo Classic. Names without the prefix
-    ``Gazebo/`` are accepted, because scripts of the robot may define them. Such a name is reported only if it is a
-    Gazebo material without the prefix.
+    Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo Classic. A name without the prefix
+    ``Gazebo/`` is reported only if Gazebo has a material of this name with the prefix. Scripts of the robot may define
+    other names.
 
     ## Why is this bad?
     Gazebo logs "Unable to find material" and shows the link in white.

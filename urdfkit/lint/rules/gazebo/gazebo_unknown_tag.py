@@ -30,10 +30,11 @@ class GazeboUnknownTag(RobotRule):
     """An element of ``<gazebo reference="…">`` or of a ``<sensor>`` is unknown.
 
     ## What it does
-    Compares the elements of the block with the names that sdformat converts to friction, stiffness, colour and other
-    properties, and suggests the nearest one. Names that resemble none of them are accepted, because they may be SDF.
-    ``preserveFixedJoint`` in the block of a link is reported, because only joints have this property. The content of a
-    ``<sensor>`` is SDF, so every element that SDF does not define for sensors is reported.
+    Compares the elements of each ``<gazebo>`` block with the names that sdformat converts to friction, stiffness,
+    colour and other properties, and suggests the nearest name. An element that resembles none of these names is
+    accepted, because it may be an SDF element. ``preserveFixedJoint`` in the block of a link is reported, because only
+    joints have this property. The content of a ``<sensor>`` is SDF, so every element that SDF does not define for
+    sensors is reported.
 
     ## Why is this bad?
     sdformat copies an unknown element unchanged, and Gazebo ignores it: ``<mu>`` sets no friction, ``<selfcollide>``

@@ -13,7 +13,7 @@ class PluginLibWrongGeneration(RobotRule):
     ``ros2``. From Jazzy on (``ros2-jazzy``), ROS 2 has no Gazebo Classic.
 
     ## Why is this bad?
-    Gazebo reports "Failed to load plugin", and the robot has no drive or sensor.
+    Gazebo reports "Failed to load plugin", and the drive or sensor that the plugin provides is missing.
 
     ## Example
     ```diff

@@ -13,10 +13,10 @@ class PluginParamWrongGeneration(RobotRule):
     ## What it does
     ROS 1 spells parameters in camelCase, ROS 2 and Gazebo Sim in snake_case, and some parameters have changed their
     meaning. The rule reports parameters that only another generation of the plugin reads. The target determines the
-    generation. Without a target, the generation is that in which most parameters of the plugin are spelt.
+    generation. Without a target, the rule assumes the generation that reads most parameters of the plugin.
 
     ## Why is this bad?
-    The plugin ignores the parameter and uses its default, so topics, frames and wheels differ from the description.
+    The plugin ignores the parameter and uses its default, so its topics, frames and wheels differ from the description.
 
     ## Example
     ```diff

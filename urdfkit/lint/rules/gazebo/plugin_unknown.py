@@ -20,8 +20,8 @@ class PluginUnknown(RobotRule):
     parameters.
 
     ## Why is this bad?
-    Gazebo reports "Failed to load plugin", and the robot has no drive or sensor. Gazebo Sim looks up a plugin by the
-    name of its C++ class.
+    Gazebo reports "Failed to load plugin", and the drive or sensor that the plugin provides is missing. Gazebo Sim
+    looks up a plugin by the name of its C++ class.
 
     ## Example
     ```diff

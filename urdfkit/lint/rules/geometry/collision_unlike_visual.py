@@ -36,11 +36,14 @@ class CollisionUnlikeVisual(RobotRule):
     """The collision shape of a link differs from its visual shape in orientation, place or size.
 
     ## What it does
-    Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in different
-    poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision shape that
-    is at least three times larger or smaller than a visual shape of the same kind in all directions, a collision box
-    for which this holds on two sides, a wrong decimal point in one direction, and wheels whose visual and collision
-    radius differ.
+    Compares the collision shapes of a link with its visual shapes. Reports:
+
+    - shapes of about the same size in different poses
+    - cylinders and boxes with the same dimensions in another order
+    - a single collision shape that is at least three times larger or smaller than the visual shape of the same kind, in
+      all directions or, for a box, in two of them
+    - a size with a wrong decimal point in one direction
+    - wheels whose visual and collision radius differ
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was

@@ -13,8 +13,8 @@ class MeshOfOtherLink(RobotRule):
 
     ## What it does
     Compares the file names, without suffix, of the visual mesh and the collision mesh in links with one mesh of each
-    kind. If the two names differ, the link is reported if another link uses one of the names for both its meshes.
-    Robots in which most links have two meshes of different names are not checked.
+    kind. Reports a link with two different names if another link uses one of these names for both of its meshes. Robots
+    in which most links have two meshes of different names are not checked.
 
     ## Why is this bad?
     A part is drawn in the shape of another part, or collides with it. The usual cause is a copied ``<mesh>``.

@@ -22,10 +22,10 @@ class NonpositivePrimitive(RobotRule):
     """A box, cylinder, sphere or capsule has a size that is not positive, or a mesh has a scale of zero.
 
     ## What it does
-    Checks for sizes, radii and lengths that are zero or negative, and for zeros in the scale of a mesh; a negative
-    scale mirrors the mesh. A size of zero is reported as a warning. A collision sphere with a radius of zero is
-    reported as a note, because exporters write such spheres for contact points. With ``--target mujoco``, both are
-    reported as errors.
+    Checks for sizes, radii and lengths that are zero or negative, and for zeros in the scale of a mesh. A negative
+    scale is accepted, because it mirrors the mesh. A size of zero is reported as a warning. A collision sphere with a
+    radius of zero is reported as a note, because exporters write such spheres for contact points. With ``--target
+    mujoco``, both are reported as errors.
 
     ## Why is this bad?
     MuJoCo and physics engines reject the shape ("size must be positive"); elsewhere it is invisible and does not

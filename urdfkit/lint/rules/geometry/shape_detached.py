@@ -21,9 +21,10 @@ class ShapeDetached(RobotRule):
     ## What it does
     Checks for shapes that extend ten times farther from the centre of mass than the other shapes of their link, if the
     inertia of the link is also too small for this distance (by the criterion of I508). Meshes that are too large are
-    reported by G604. Two kinds of shapes are not checked. One kind is visual shapes that are more than half
-    transparent, because they often show the view of a sensor. The other kind is collision spheres around the whole
-    link, of up to a hundred times its size, because they keep obstacles away.
+    reported by G604. Two kinds of shapes are not checked:
+
+    - visual shapes that are more than half transparent, because they often show the view of a sensor
+    - collision spheres around the whole link, of up to a hundred times its size, because they keep obstacles away
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. The usual

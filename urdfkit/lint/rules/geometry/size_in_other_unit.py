@@ -24,8 +24,8 @@ class SizeInOtherUnit(RobotRule):
     ## What it does
     Compares boxes, cylinders, spheres and capsules with the median of the distances between joints and the sizes of the
     other shapes. Reports shapes of more than 50 times that median and more than 2 m. The root link is not checked,
-    because it may be a ground. A link on which another link slides may be up to 100 m long. Links with an implausible
-    density, which I514 reports, are not checked either. G604 checks meshes.
+    because it may be a ground plane. A link on which another link slides may be up to 100 m long. Links with an
+    implausible density, which I514 reports, are not checked either. G604 checks meshes.
 
     ## Why is this bad?
     The shape hides the robot and collides with everything. Usually its size was written in millimetres.

@@ -30,9 +30,11 @@ class ComOutsideGeometry(RobotRule):
 
     ## What it does
     Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link. A
-    centre of mass inside the box is reported in two cases: if the link has a single shape, and the inertia is that of
-    this shape about a centre other than the centre of mass; and if the centre of mass becomes the centre of one of
-    several shapes when the sign of one coordinate changes.
+    centre of mass inside the box is reported in two cases:
+
+    - The link has a single shape and the inertia of this shape, but the centre of mass is not the centre of the shape.
+    - The link has several shapes, and the centre of mass would be the centre of one of them if the sign of one
+      coordinate changed.
 
     Collision shapes often cover only a part of the body. Therefore, a link without visual shapes is reported only if
     the distance exceeds the diagonal of the box. Links with an unreadable mesh are not checked.

@@ -26,9 +26,12 @@ class InertiaAxesSwapped(RobotRule):
     """The moments of inertia of a link are assigned to the wrong axes.
 
     ## What it does
-    Compares ixx, iyy and izz of each link with the moments of its shapes with uniform density. Reports the tensor if it
-    differs from them, but agrees to 10 % in another order of the axes, or to 2 % with the moments of a cylinder with
-    radius and length swapped. When it compares another order, the rule ignores a common factor of the three moments.
+    Compares ixx, iyy and izz of each link with the moments of inertia of its shapes at uniform density. Reports a
+    tensor that differs from these moments in two cases:
+
+    - It agrees with them to 10 % if the axes are in another order. A common factor of the three moments is ignored.
+    - It agrees to 2 % with the moments of a cylinder with radius and length swapped.
+
     Meshes are replaced by their bounding boxes.
 
     ## Why is this bad?

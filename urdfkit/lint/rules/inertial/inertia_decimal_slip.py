@@ -22,11 +22,11 @@ class InertiaDecimalSlip(RobotRule):
     """One moment of inertia is off by a power of ten.
 
     ## What it does
-    Compares the diagonal of the tensor with the diagonal that the link's shapes have at uniform density. If two moments
-    agree and the third is off by a factor of 10, 100 or 1000, the decimal point of the third is wrong. If all three are
-    off by a factor of exactly 10, the decimal point of the mass may be wrong. A tensor with products of inertia is
-    accepted if another link has the same tensor except for signs, because such pairs come from CAD programs that
-    computed them for mirrored parts.
+    Compares ixx, iyy and izz with the moments of inertia of the link's shapes at uniform density. If two moments agree
+    and the third is off by a factor of 10, 100 or 1000, the decimal point of the third is wrong. If all three are off
+    by a factor of exactly 10, the decimal point of the mass may be wrong. A tensor with products of inertia is accepted
+    if another link has the same tensor except for signs, because such pairs come from CAD programs that computed them
+    for mirrored parts.
 
     ## Why is this bad?
     The link rotates about one axis as if it were much lighter or heavier than it is.

@@ -10,8 +10,8 @@ class InertiaTransposed(RobotRule):
     """The entries of an inertia tensor are in the wrong order.
 
     ## What it does
-    Checks physically impossible tensors: reads their entries in the orders that other programs use, and reports the
-    tensor if exactly one of these orders makes it possible.
+    Reads the entries of physically impossible tensors in the orders that other programs use. Reports the tensor if it
+    is physically possible in exactly one of these orders.
 
     ## Why is this bad?
     URDF expects ixx, ixy, ixz, iyy, iyz, izz. A moment in the place of a product makes the tensor impossible: MuJoCo

@@ -33,15 +33,17 @@ class InertiaUnlikeShapes(RobotRule):
     """The moments of inertia of a link are not those of its shapes, unlike those of all other links.
 
     ## What it does
-    Compares ixx, iyy and izz of each link with the moments of its box, cylinder or sphere at uniform density. If at
-    least four links, and three quarters of all, have these moments (within 5 %), the only tensor is reported with a
-    moment that differs by a factor of more than 1.6. Links whose centre of mass is not that of the shape are left out,
-    and so are hollow parts: none of their moments is smaller, nor larger than twice that of the solid shape. The links
-    of one macro call, or one ``<inertia>``, count as one.
+    Compares ixx, iyy and izz of each link with the moments of its box, cylinder or sphere at uniform density. Reports
+    the only tensor with a moment that differs by a factor of more than 1.6, if the tensors of at least four links, and
+    of three quarters of all links, agree with their shapes within 5 %. Links that share a macro call or an
+    ``<inertia>`` element count as one link. Two kinds of links are not compared:
+
+    - links whose centre of mass is not the centre of the shape
+    - hollow parts: each of their moments is one to two times that of the solid shape
 
     ## Why is this bad?
-    A size in a formula was exchanged, or an argument of the macro that computes the inertia: the part swings faster or
-    slower than the real one.
+    Usually a formula contains the wrong size, or the macro that computes the inertia has a wrong argument. The part
+    swings faster or slower than the real one.
 
     ## Example
     ```diff

@@ -13,13 +13,14 @@ class MovingLinkWithoutInertial(RobotRule):
     Checks for links that can move although neither the link nor any link fixed to it has a mass and a tensor. A link
     can move if a joint moves it, or if the robot has no root link ``world``. The finding is an error for simulators:
     with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For
-    other robots it is a warning. A root link is a note if there is no target and the robot has no ``<gazebo>``,
-    ``<transmission>`` or ``<ros2_control>``: MuJoCo, PyBullet and Newton treat it as fixed.
+    other robots it is a warning. The finding for a root link is a note if there is no target and the robot has no
+    ``<gazebo>``, ``<transmission>`` or ``<ros2_control>``: MuJoCo, PyBullet and Newton treat it as fixed.
 
-    A robot without any ``<inertial>`` has a single finding. This finding is a note in two cases: if fewer than two of
-    the conditions "joints move links", "these links have shapes" and "the target is a simulator" hold, and if the
-    target is no simulator and the robot has no ``<gazebo>``, ``<transmission>`` or ``<ros2_control>``. In the first
-    case, a robot without collision shapes is not reported.
+    A robot without any ``<inertial>`` has a single finding. This finding is a note in two cases:
+
+    - At most one of these conditions holds: joints move links, these links have shapes, the target is a simulator. In
+      this case, a robot without collision shapes is not reported.
+    - The target is not a simulator, and the robot has no ``<gazebo>``, ``<transmission>`` or ``<ros2_control>``.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the

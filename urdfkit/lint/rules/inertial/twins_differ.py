@@ -19,8 +19,8 @@ class TwinsDiffer(RobotRule):
     ## What it does
     Compares child links of the same parent if the names of their joints differ only in a side (``left`` and ``right``)
     or an end (``front`` and ``rear``). Reports a left and a right part if their masses or sizes differ by a factor of
-    two, and a front and a rear part if these differ by a factor of 10, 100 or 1000. Meshes are also compared by their
-    ``scale``.
+    two, and a front and a rear part if their masses or sizes differ by a factor of 10, 100 or 1000. Meshes are also
+    compared by their ``scale``.
 
     ## Why is this bad?
     The robot leans or drifts, or one of its wheels is too small to reach the ground. The usual cause is a wrong decimal

@@ -12,8 +12,8 @@ class AxisMissing(RobotRule):
     """A movable joint has no ``<axis>``.
 
     ## What it does
-    Checks for ``revolute``, ``continuous``, ``prismatic`` and ``planar`` joints without an ``<axis>`` whose child link
-    has a shape or a mass. The finding is a warning if four or more joints move and only one of them has no axis.
+    Checks for ``revolute``, ``continuous``, ``prismatic`` and ``planar`` joints without an ``<axis>``, if their child
+    link has a shape or a mass. The finding is a warning if four or more joints move and only one of them has no axis.
 
     ## Why is this bad?
     The default axis is x (``1 0 0``), although z is often expected. Write the axis explicitly, even if it is the

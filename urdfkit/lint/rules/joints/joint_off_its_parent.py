@@ -9,13 +9,14 @@ class JointOffItsParent(RobotRule):
     ## What it does
     Compares the positions of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the
     bounding boxes of their parent links. Joints that steer wheels, and fixed joints in the middle of their child links,
-    are not compared. A joint is reported if it is away from the shape, or so deep inside that its child link is inside
-    the parent link, while at least four other joints are exactly on the surface. A telescope stage on a prismatic joint
-    may be inside.
+    are not compared. Reports a joint that is outside the box, or so deep inside it that its child link is inside the
+    parent link, if at least four other joints are exactly on the surface of the boxes of their parent links. A
+    telescope stage on a prismatic joint may be inside.
 
-    Also reports the only joint that is on the axis of a slender link, but not at its end: if two other joints are at
-    the ends of such links, or if it is as far along the link as its child link is long. Also reports a fixed joint
-    whose links are apart, but meet exactly with the opposite sign of one coordinate.
+    Also reports a joint on the axis of a slender link that is not at the end of this link, if it is the only such
+    joint. In addition, two other joints must be at the ends of slender links, or the joint must be as far along its
+    parent link as its child link is long. Also reports a fixed joint whose links are apart, but would meet exactly with
+    the opposite sign of one coordinate.
 
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually

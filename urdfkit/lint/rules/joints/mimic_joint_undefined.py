@@ -12,10 +12,11 @@ class MimicJointUndefined(RobotRule):
     """A joint mimics an undefined or unsuitable joint, or itself.
 
     ## What it does
-    Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
-    contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either. Also
-    reports a joint that mimics a joint on the other side of the robot although its own side has the corresponding
-    joint, and mimic plugins of Gazebo Classic that name undefined joints or swap the two joints.
+    Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, its own joint,
+    or a joint that in turn mimics its own joint. Planar and floating joints cannot mimic others either. Also reports:
+
+    - a joint that mimics a joint on the other side of the robot, although its own side has the corresponding joint
+    - mimic plugins of Gazebo Classic that name undefined joints or swap the two joints
 
     ## Why is this bad?
     Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.

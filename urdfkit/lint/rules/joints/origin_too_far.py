@@ -54,15 +54,17 @@ class OriginTooFar(RobotRule):
     parent link.
 
     If the sizes of all shapes are known, also reports a joint that separates its child link, with everything attached
-    to it, from the rest of the robot. The gap must be longer than most of the larger of the two parts. It must also
-    exceed the smaller of two lengths: the size of the largest link, and four times the size of the larger of the two
-    links of the joint.
+    to it, from the rest of the robot. The gap must be longer than 60 % of the larger of these two parts. It must also
+    exceed the size of the largest link, or four times the size of the larger of the two links of the joint.
 
-    A moving joint outside the bounding box of its parent link is reported in two cases: if every other moving joint is
-    inside or at the box of its parent link, and if this joint alone would be at the box if the sign of one coordinate
-    changed. The joints of one macro count as one joint. Joints of a root link without shapes are not checked, because
-    they place the robot in the world. If no size is known, because the meshes are missing, the distance is compared
-    with the distances of all other joints.
+    A moving joint outside the bounding box of its parent link is reported in two cases:
+
+    - Every other moving joint is inside or at the box of its parent link.
+    - This joint is the only joint that would be at the box if the sign of one coordinate changed.
+
+    The joints of one macro count as one joint. Joints of a root link without shapes are not checked, because they place
+    the robot in the world. If no size is known, because the meshes are missing, the distance is compared with the
+    distances of all other joints.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,

@@ -24,10 +24,14 @@ class SlideOffItsParent(RobotRule):
 
     ## What it does
     Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if the boxes
-    touch with the joint at zero but are apart by 10 % of the stroke at a limit. In addition, the boxes must touch at
-    both limits if the joint moves along another axis of its frame. If the parent link is a rail (three times as long as
-    wide), they must touch at both limits if the joint moves along the rail. A column that is longer than its stroke may
-    rise out of its parent link.
+    touch with the joint at zero but are at least 10 % of the stroke apart at a limit. In addition, one of two
+    conditions must hold:
+
+    - With exactly one other axis of the joint frame, the boxes would touch at both limits.
+    - With no axis they would touch at both limits, and the joint moves along a rail: a parent link that is at least
+      three times as long as wide.
+
+    A column that is longer than its stroke may rise out of its parent link.
 
     ## Why is this bad?
     The carriage leaves its rail. Usually the ``<axis>`` was copied from another joint, or is missing and defaults to x.

@@ -29,7 +29,7 @@ class ControllerParametersMissing(RobotRule):
     ``ros2_control_node`` needs parameters unless the spawners pass them.
 
     ## Why is this bad?
-    The spawner fails, since the controller has no type, and the robot does not move.
+    The spawner fails, because the controller has no type, and the robot does not move.
 
     ## Example
     ```diff

@@ -10,7 +10,7 @@ class LaunchArgumentRefused(RobotRule):
     Compares the ``choices`` of an argument with its default, with the value that an including launch file passes, and
     with the value in ``LaunchConfigurationEquals`` and ``EqualsSubstitution``. If the argument is used as a condition,
     also reports defaults and passed values that are neither true nor false. If an XML launch file compares an argument
-    and its default with several values, other passed values are reported too.
+    with several values, and its default is one of them, other passed values are reported too.
 
     ## Why is this bad?
     The launch stops: "provided value is not valid". A comparison with another value is never true.

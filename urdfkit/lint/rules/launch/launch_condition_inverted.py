@@ -11,9 +11,9 @@ class LaunchConditionInverted(RobotRule):
     drivers, ``ros2_control_node`` and launch files that start them must not be limited to the simulation, and Gazebo
     must not be limited to the real robot. Included files that start both are not checked.
 
-    If the name of an argument enables a node, include or group, as ``use_rviz`` enables ``rviz2``, the action must not
-    start when the argument is false, unless the file starts another such action when it is true. The reverse holds for
-    arguments such as ``headless`` and ``disable_rviz``.
+    The name of an argument may state that it enables a node, include or group, as ``use_rviz`` enables ``rviz2``. The
+    rule reports such an action if it starts when the argument is false, unless the file starts another such action when
+    the argument is true. The reverse holds for arguments such as ``headless`` and ``disable_rviz``.
 
     ## Why is this bad?
     Drivers start without their devices, the robot starts without its drivers, and the argument does the opposite of

@@ -35,8 +35,8 @@ class LaunchValueInvalid(RobotRule):
     ## What it does
     Checks the XML launch files of ROS for:
 
-    - conditions and other Boolean values that are neither true nor false, and such defaults of arguments that serve as
-      conditions; values with substitutions are not checked
+    - conditions, defaults of arguments that serve as conditions, and other Boolean values that are neither true nor
+      false; values with substitutions are not checked
     - values that equal the name of a launch argument that the file does not use
     - conditions with an operator outside ``$(eval …)``
     - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
@@ -46,7 +46,7 @@ class LaunchValueInvalid(RobotRule):
       parameter, and MoveIt files that no launch file loads
     - parameters inside of a node that reads them from another namespace in Python, and private parameters outside of it
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
-    - planning pipelines in another namespace than that of the node ``move_group``
+    - planning pipelines outside the namespace of the node ``move_group``
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned
     - a robot description in the wrong attribute: ``textfile`` is for a file without xacro, ``command`` for a program,
       and ``value`` for the text itself

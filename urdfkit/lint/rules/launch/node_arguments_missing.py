@@ -14,8 +14,8 @@ class NodeArgumentsMissing(RobotRule):
     - in ROS 2, the spawner of controllers and ``spawn_entity.py``; ``parameter_bridge`` and ``create`` without
       parameters; ``map_server`` without ``yaml_filename``; and ``move_group`` without a planning pipeline
 
-    Also reports Gazebo without ``-r`` (it starts paused) if it has no window or if spawners of controllers wait for it,
-    and a lifecycle manager whose ``autostart`` is false if no file calls its service.
+    Gazebo without ``-r`` starts paused. It is reported if it has no window or if spawners of controllers wait for it.
+    Also reports a lifecycle manager whose ``autostart`` is false, if no file calls its service.
 
     ## Why is this bad?
     The node prints its usage message and exits, or waits without effect.

@@ -8,10 +8,11 @@ class NodeNameMisspelt(RobotRule):
 
     ## What it does
     Compares the names of nodes in ROS 2 launch files with the sections of the parameter files that these nodes load,
-    and with the ``node_names`` of lifecycle managers. The rule reports names that differ by one letter, and parameter
-    files without a section of the node that loads them, if another file has it. Files with ``/**`` are not checked,
-    because their parameters apply to every node. Also reports nodes whose only section is in another namespace; the
-    namespaces of groups and includes count. In ROS 1, the rule reports nodelets whose manager has another name.
+    and with the ``node_names`` of lifecycle managers. Reports names that differ by one letter. Also reports parameter
+    files without a section for the node that loads them, if another file has this section. Files with ``/**`` are not
+    checked, because their parameters apply to every node. Also reports nodes whose only section is in another
+    namespace; the namespaces of groups and includes count. In ROS 1, the rule reports nodelets whose manager has
+    another name.
 
     ## Why is this bad?
     The node starts without its parameters and without an error. A lifecycle manager waits for a node that never

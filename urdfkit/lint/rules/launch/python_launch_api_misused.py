@@ -14,16 +14,16 @@ class PythonLaunchApiMisused(RobotRule):
     """A Python launch file imports an unknown name from a launch package, or calls a class with wrong arguments.
 
     ## What it does
-    Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils`` with the names
-    in all releases from Foxy to Rolling, and the keywords of common actions with the keywords from Galactic to Rolling.
-    Imports inside ``try`` are not checked. Reports:
+    Checks the names that are imported from ``launch``, ``launch_ros``, ``ament_index_python`` and
+    ``moveit_configs_utils`` against all releases from Foxy to Rolling. Checks the keyword arguments of common actions
+    against all releases from Galactic to Rolling. Imports inside ``try`` are not checked. Reports:
 
     - misspelt names, and names that another module defines
-    - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
+    - attributes of XML launch files such as ``pkg``, and keyword arguments of Foxy such as ``node_executable``
     - calls of launch classes that lack an argument, or pass one without its keyword
     - substitutions that Python code, an f-string or xacro uses as strings
     - lists without brackets or inside of other lists, unknown values of ``output``, and ``items`` without a call
-    - names of unused variables in quotes
+    - strings that equal the name of an unused variable
     - calls of the file's own functions that lack an argument
     - the string value of a launch argument that is used as a Boolean, or compared with a Boolean
     - launch files whose format does not match the class that loads them

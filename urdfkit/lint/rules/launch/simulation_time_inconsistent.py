@@ -9,11 +9,15 @@ class SimulationTimeInconsistent(RobotRule):
     """A node and the other nodes of its launch file use different clocks.
 
     ## What it does
-    Checks ROS 2 launch files. Reports filters, localization, navigation servers and ``robot_state_publisher`` without
-    ``use_sim_time`` if another node of the same package in the file sets it. Also reports filters, localization,
-    navigation servers, ``move_group`` and servo nodes without it if ``robot_state_publisher`` or RViz sets it. In files
-    that always start Gazebo, also reports such nodes and included launch files if their ``use_sim_time`` is false, and
-    includes without it if its default is false and another include of the file passes it.
+    Checks ROS 2 launch files. Reports:
+
+    - filters, localization, navigation servers and ``robot_state_publisher`` without ``use_sim_time``, if another node
+      of the same package in the file sets this parameter
+    - filters, localization, navigation servers, ``move_group`` and servo nodes without ``use_sim_time``, if
+      ``robot_state_publisher`` or RViz sets it
+    - in files that always start Gazebo, such nodes and included launch files with a ``use_sim_time`` of false
+    - in these files, includes that do not pass ``use_sim_time``, if its default is false and another include passes it
+
     Parameter files are read too. Launch files that set the parameter for all nodes are not checked.
 
     ## Why is this bad?

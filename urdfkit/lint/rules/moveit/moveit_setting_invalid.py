@@ -27,8 +27,8 @@ class MoveitSettingInvalid(RobotRule):
     - ``has_…_limits`` that is not a boolean, is true without a limit, or is false for a single joint with a limit
     - solver timeouts that are not positive, and default scaling factors above 1
     - Cartesian limits that are missing or have the wrong sign
-    - solvers for chains of groups with several branches, and arms of three or four joints whose solver
-      has no ``position_only_ik``
+    - solvers for kinematic chains in groups with several branches, and arms of three or four joints whose solver has no
+      ``position_only_ik``
     - joints of a group that no controller moves, and projections with joints of another group
 
     ## Why is this bad?

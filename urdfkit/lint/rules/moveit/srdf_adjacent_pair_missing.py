@@ -24,10 +24,13 @@ class SrdfAdjacentPairMissing(RobotRule):
     ## What it does
     Checks pairs of links that have collision geometry and are connected by a joint, if the SRDF disables most of these
     pairs. A pair is reported if both links occur in other disabled pairs, or if all other adjacent pairs are disabled.
-    Two more pairs are reported: links that overlap with every joint at zero, and that only fixed or prismatic joints
-    separate, such as the first and the last stage of a telescope, and the only pair of a limb with one link in between
-    that is not disabled although its counterpart on the other side of the robot is. Both links must occur in disabled
-    pairs.
+    If both links occur in disabled pairs, two other kinds of pairs are also reported:
+
+    - links that overlap with every joint at zero and that only fixed or prismatic joints separate, such as the first
+      and the last stage of a telescope
+    - the only pair of a limb, with one link in between, that is not disabled although its counterpart on the other side
+      of the robot is disabled
+
     SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are not checked.
 
     ## Why is this bad?

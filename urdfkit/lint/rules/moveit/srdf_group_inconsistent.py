@@ -21,7 +21,7 @@ class SrdfGroupInconsistent(RobotRule):
       the group of the end effector
     - the parent group of an end effector is not its own group, nor a part of it
     - no other joint mimics a passive joint, and no controller moves it
-    - a joint without a group is passive if the robot has another joint with its name on the other side that is
+    - a joint without a group is passive if its counterpart on the other side of the robot is passive
     - a virtual joint ends at the root link, begins at a frame outside the robot, and is not fixed to ``odom`` or
       ``map`` if the robot has drive wheels
 

@@ -46,7 +46,7 @@ class BridgeMisspelt(RobotRule):
     - misspelt message types, keys, directions and topics of the robot
     - pairs of types that cannot be converted, and pairs of topics of the left and the right side of the robot
     - topics of commands and sensors that are bridged in the wrong direction
-    - the clock and the joint states, which nodes need, if no bridge has them
+    - a missing bridge for the clock or the joint states, if nodes need them
 
     ## Why is this bad?
     The bridge logs "No template specialization for the pair", or waits silently for a topic that does not exist.

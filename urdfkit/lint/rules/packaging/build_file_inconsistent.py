@@ -63,11 +63,11 @@ class BuildFileInconsistent(RobotRule):
     In CMakeLists.txt, checks the syntax, the project name, the order of calls, the call of ``ament_package()`` or
     ``catkin_package()``, and the spelling of commands, variables and packages. Reports missing files and folders that
     ``install`` or a test names. Also reports folders and scripts that launch files use but that are not installed, or
-    are installed in the wrong place. The source files of targets must exist, and the commands of a target must name one
-    that is defined. A target that includes headers of a package of messages must depend on it.
+    are installed in the wrong place. The source files of targets must exist, and commands for a target must name a
+    defined target. A target that includes headers of a message package must depend on this package.
 
-    Files of messages, services and actions must be generated, with the packages of their types in ``DEPENDENCIES``, and
-    package.xml must have the group and the packages that generated messages need.
+    Code must be generated for all message, service and action files, with the packages of their types in
+    ``DEPENDENCIES``. package.xml must contain the group and the packages that generated messages need.
 
     Checks the name, the version, ``packages``, ``data_files`` and the modules of console scripts in setup.py, and the
     script folders in setup.cfg.

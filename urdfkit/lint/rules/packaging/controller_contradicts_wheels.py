@@ -22,9 +22,10 @@ class ControllerContradictsWheels(RobotRule):
     Compares ``wheel_separation``, ``wheel_radius``, the radius, distances and corners of mecanum controllers, and the
     ``wheelbase`` and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
-    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when
-    the robot turns; not with a ``wheel_separation_multiplier``, which compensates for the slip. Wheels with meshes
-    are not measured. A left and a right wheel at the same place are reported.
+    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
+    robot turns. With a ``wheel_separation_multiplier``, such a separation is reported, because the multiplier already
+    compensates for the slip. Wheels with meshes are not measured. A left and a right wheel at the same place are
+    reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 

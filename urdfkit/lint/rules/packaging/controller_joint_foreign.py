@@ -18,9 +18,10 @@ class ControllerJointForeign(RobotRule):
     resemble a joint of the controller are reported as misspelt by K962. Also reports a joint on the other side of the
     robot in a list of joints, if the name of the controller or of the list states the side.
 
-    In the Python code of the workspace, compares the values in ``JointTrajectory`` and ``JointState`` messages with the
-    names of the joints in them: their number, and the order of variables that are named after the joints. Also compares
-    the number of values in ``Float64MultiArray`` messages with the joints of the controller that reads them.
+    In the Python code of the workspace, checks ``JointTrajectory`` and ``JointState`` messages. They must contain as
+    many values as joint names. If the values are variables whose names contain words of the joint names, they must be
+    in the order of the joints. Also compares the number of values in ``Float64MultiArray`` messages with the joints of
+    the controller that reads them.
 
     ## Why is this bad?
     The values have no effect, and the intended joint has the default gains or tolerances.

@@ -61,8 +61,8 @@ class CostmapContradictsRobot(RobotRule):
 
     Robots with meshes that are not found are not checked.
 
-    Also reports obstacle heights that exclude every point of a level laser scanner of the robot, and a range of
-    slam_toolbox or gmapping far beyond the range of the scanner.
+    Also reports limits of the obstacle height that exclude every point of a horizontal laser scanner of the robot, and
+    a range of slam_toolbox or gmapping far beyond the range of the scanner.
 
     ## Why is this bad?
     Navigation plans paths that are too narrow for the robot, or finds none.

@@ -15,7 +15,7 @@ class FilterInconsistent(RobotRule):
     - an absolute position from drifting odometry next to another absolute position
     - a filter in the map frame without an absolute position
     - inputs of which none fuses the place or the velocity along an axis, also y if the base can move sideways
-    - place and velocity of the same odometry, which are fused twice
+    - position and velocity of the same odometry, so that the filter uses its data twice
     - a rate that is too low for the ``transform_tolerance`` of costmaps, controller and behavior servers and collision
       monitors
 

@@ -44,9 +44,11 @@ class FrameUndefined(RobotRule):
     - the frame of the octomap of MoveIt, which another file must name
 
     The rule reports misspelt link names, unless another description in these packages defines a link of that name.
-    Other names are reported only if no other file in these packages mentions them, and only in three parameters: a
-    frame of a drive controller or broadcaster, the ``sensor_frame`` of a sensor of the robot, and a base frame next to
-    a map or odometry frame if another parameter names a link as base frame.
+    Other names are reported only if no other file in these packages mentions them, and only in three parameters:
+
+    - a frame of a drive controller or broadcaster
+    - the ``sensor_frame`` of a sensor of the robot
+    - a base frame next to a map or odometry frame, if another parameter names a link as base frame
 
     ## Why is this bad?
     The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never

@@ -14,8 +14,8 @@ class NotInstalled(RobotRule):
 
     ## What it does
     Checks ``package://…`` and ``$(find …)`` references for existing folders of the robot's own package that neither
-    CMakeLists.txt nor setup.py mentions. The finding is at the first ``install(DIRECTORY …)`` if there is one. For a
-    catkin package it is a note, because files that are not installed are still found in the devel space.
+    CMakeLists.txt nor setup.py mentions. The finding is reported at the first ``install(DIRECTORY …)`` if there is one.
+    For a catkin package it is a note, because files that are not installed are still found in the devel space.
 
     ## Why is this bad?
     After installation, the share folder of the package lacks these meshes or included files.

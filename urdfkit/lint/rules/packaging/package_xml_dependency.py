@@ -58,17 +58,16 @@ class PackageXmlDependency(RobotRule):
     - packages that launch files start, include or import, and ``xacro`` if they call it, with the dependencies of their
       own package
     - packages that the Python code of a package imports, except under a condition, and that its CMakeLists.txt finds
-    - packages of the controllers in YAML, if a package of the robot depends on other controller packages (all packages
-      of the robot count)
+    - packages of the controllers in YAML, if any package of the robot depends on other controller packages
     - packages of the plugins of Nav2 and MoveIt, and of the Gazebo plugin that runs controllers, if the package starts
       Gazebo or depends on other packages of this kind
 
-    A build or test dependency is not sufficient for launch files and imports, and a run or test dependency not for
-    packages that CMakeLists.txt finds. A dependency on a metapackage, such as
-    ``navigation2``, covers the packages that the metapackage depends on. A name that misspells a dependency, a package
-    of the workspace or a common package by one letter is reported as an error at each place. Every other package is
-    reported once, at the line of package.xml after which the dependency belongs, with a list of the places that use the
-    package. A comment that suppresses the rule at one of these places suppresses that use.
+    A build or test dependency is not sufficient for launch files and imports. A run or test dependency is not
+    sufficient for packages that CMakeLists.txt finds. A dependency on a metapackage, such as ``navigation2``, covers
+    the packages that the metapackage depends on. A name that misspells a dependency, a package of the workspace or a
+    common package by one letter is reported as an error at each place. Every other package is reported once, at the
+    line of package.xml after which the dependency belongs, with a list of the places that use the package. A comment
+    that suppresses the rule at one of these places suppresses that use.
 
     Test folders, optional launch files of the MoveIt Setup Assistant, and dependencies that are commented out in
     package.xml are not checked.

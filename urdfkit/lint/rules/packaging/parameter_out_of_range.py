@@ -16,10 +16,10 @@ class ParameterOutOfRange(RobotRule):
     """A time, rate, length, velocity or proportion in YAML is far outside the sensible range.
 
     ## What it does
-    Compares parameters in YAML and in XML launch files with the sensible range of each parameter, which is many times
-    wider than the values in the examples of its package: those of controllers, Nav2, move_base, robot_localization,
-    slam_toolbox, gmapping, amcl, twist_mux, teleop nodes, maps and MoveIt. Values of zero and below are accepted,
-    because they often disable a function.
+    Checks the parameters of controllers, Nav2, move_base, robot_localization, slam_toolbox, gmapping, amcl, twist_mux,
+    teleop nodes, maps and MoveIt, in YAML and in XML launch files. Each parameter has a plausible range, which is many
+    times wider than the values in the examples of its package. Values of zero and below are accepted, because they
+    often disable a function.
 
     ## Why is this bad?
     The nodes accept such a value. Usually a decimal point is misplaced, or the value has another unit, such as

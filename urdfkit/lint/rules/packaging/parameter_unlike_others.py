@@ -11,7 +11,8 @@ class ParameterUnlikeOthers(RobotRule):
 
     - keys and names that differ by a letter from those of at least half of the sections of the same shape
     - numbers and Booleans in quotes, if the other sections have them without quotes
-    - lists of numbers that are one value longer or shorter than the list of the opposite key and all others
+    - lists of numbers that are one value longer or shorter than all others, including the list of the opposite key,
+      such as the minimum for the maximum
     - names in a list without a section, next to a section that the list does not name
     - a name that occurs twice in a list of joints, plugins or controllers
     - misspelt joints and frames of the robot, and misspelt parameters, in the parameters of any node

@@ -31,9 +31,10 @@ class ParameterValueInvalid(RobotRule):
     - numbers and Boolean values in quotes, and names that are not in a list
     - joints that are listed twice or lack gains, and controllers without a type or a required parameter
     - an update rate that is higher than the rate of Gazebo's physics
-    - joint positions that lack a value, or that exceed the limits of a joint because they are in degrees or millimetres
+    - lists of joint positions that lack a value, and positions that exceed the limits of a joint because they are in
+      degrees or millimetres
     - positions of a single joint, and ``initial_positions`` of MoveIt, beyond the limits
-    - lists of joints in another order than a comment on their values
+    - lists of joints whose order differs from the order in a comment on their values
     - minimum velocities above zero, and parameters with the indentation of a controller name
 
     ## Why is this bad?

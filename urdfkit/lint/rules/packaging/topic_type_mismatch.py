@@ -9,9 +9,9 @@ class TopicTypeMismatch(RobotRule):
     ## What it does
     Compares the inputs of robot_localization, the observation sources of costmaps, ``scan_topic``, ``odom_topic``,
     ``point_cloud_topic`` and ``image_topic`` with the types of topics that bridges, sensors, controllers and filters
-    publish. Also compares the flags for stamped velocity commands of the publisher and the subscriber of a topic, for
-    Nav2, twist_mux, teleop_twist_joy and drive controllers. The subscribers in the code of the workspace are compared
-    with the publishers of their topics.
+    publish. For Nav2, twist_mux, teleop_twist_joy and drive controllers, also checks that the publisher and the
+    subscriber of velocity commands set their flags for stamped messages to the same value. The subscribers in the code
+    of the workspace are compared with the publishers of their topics.
 
     ## Why is this bad?
     ROS connects only publishers and subscribers of the same type, so the node receives no messages and reports no

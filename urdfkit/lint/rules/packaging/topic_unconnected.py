@@ -10,22 +10,27 @@ class TopicUnconnected(RobotRule):
     ## What it does
     Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,
     ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
-    ``joint_state_publisher`` for topics that the node does not have. Also reports nodes such as
-    ``nav2_velocity_smoother`` that subscribe to the topic on which they publish, two nodes of a launch file that run
-    the same executable and publish on one topic, and drivers with swapped names in a remapping. For a node of the
-    workspace, the remappings are compared with the names in the code of its package, unless the code computes names.
+    ``joint_state_publisher`` for topics that the node does not have. For a node of the workspace, the remappings are
+    compared with the names in the code of its package, unless the code computes names. Also reports:
+
+    - nodes such as ``nav2_velocity_smoother`` that subscribe to the topic on which they publish
+    - two nodes of a launch file that run the same executable and publish on one topic
+    - drivers with swapped names in a remapping
 
     The rule also follows the includes of launch files. It reports nodes that publish or subscribe to
     ``robot_description`` or ``joint_states`` in a different namespace from the other nodes of the launch.
 
-    Also reports velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
-    ``twist_mux``, a drive controller, a plugin or a bridge of the packages subscribes to velocity commands.
+    A ``twist_mux``, a drive controller, a plugin or a bridge of the packages may subscribe to velocity commands. In
+    this case, the rule also reports nodes, including those of Nav2, that publish velocity commands on a topic that no
+    other file of the packages names.
 
-    In the code of the nodes of the workspace, also reports a publisher or subscriber on a topic that no other node has,
-    if one other node has messages of this type on a topic without a counterpart. The topics that parameters, YAML files
-    and remappings set count. Reports topics and actions below the name of a controller that the controller does not
-    have, subscribers with the private name of a topic such as ``joint_states``, and action servers in Python that never
-    report success to their clients.
+    In the code of workspace nodes, also reports a publisher without a subscriber, or a subscriber without a publisher,
+    if exactly one other node has an unmatched subscriber or publisher with the same message type. Topic names from
+    parameters, YAML files and remappings are included. Also reports:
+
+    - topics and actions in the namespace of a controller that the controller does not have
+    - subscribers with the private name of a topic such as ``joint_states``
+    - action servers in Python that never report success to their clients
 
     ## Why is this bad?
     The robot does not move, and no node reports an error.

@@ -32,8 +32,8 @@ class AxisContradictsPart(RobotRule):
     axis. Continuous joints of wheels must have an approximately horizontal axis that is not perpendicular to the line
     from the wheel to its counterpart on the other side. Casters, forks and rollers are not checked. Also reports
     counterparts, such as ``left_wheel_joint`` and ``right_wheel_joint``, whose axes are not parallel, and front and
-    rear wheels of one side that turn in opposite directions. In two chains, such as arms or legs, the only joint is
-    reported whose axis is not mirrored.
+    rear wheels of one side that turn in opposite directions. If a single joint of two mirrored chains, such as arms or
+    legs, has an axis that is not mirrored, this joint is reported.
 
     ## Why is this bad?
     The wheel tumbles or scrapes over the ground instead of rolling, or the robot does not steer.

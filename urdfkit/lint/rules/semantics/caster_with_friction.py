@@ -13,8 +13,8 @@ class CasterWithFriction(RobotRule):
     """A sliding caster has as much friction as a tyre in Gazebo.
 
     ## What it does
-    Checks ``mu1`` and ``mu`` of casters that are spheres on a fixed joint, next to the wheels of a drive or
-    a left and a right wheel. Coefficients of 0.5 and more are reported.
+    Checks ``mu1`` and ``mu`` of casters that are spheres on a fixed joint, in robots that also have the wheels of a
+    drive, or a left and a right wheel. Coefficients of 0.5 or more are reported.
 
     ## Why is this bad?
     The ball slides instead of rolling. Its friction brakes the robot and hinders turns, so the odometry is wrong.

@@ -8,9 +8,9 @@ class JointMovesIntoRobot(RobotRule):
 
     ## What it does
     Checks ``revolute`` and ``prismatic`` joints whose range is mainly on one side of zero, with all other joints at
-    zero. Reports a joint if the parts that it carries enter the rest of the robot, or reach below its lowest point, in
-    at least half of the range, but nowhere in the mirrored range. Only boxes, cylinders and spheres are compared. None
-    of two hundred robots of public repositories has such a joint.
+    zero. Reports a joint if the parts that it carries enter the rest of the robot, or reach below the lowest point of
+    the robot, in at least half of the range but nowhere in the mirrored range. Only boxes, cylinders and spheres are
+    compared. In a test with 200 robots from public repositories, no robot had such a joint.
 
     ## Why is this bad?
     The sign of the axis is wrong, or the signs of the limits are: a lid opens into its box, or a lift sinks into its

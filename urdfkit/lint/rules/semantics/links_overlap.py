@@ -20,7 +20,7 @@ class LinksOverlap(RobotRule):
       their centres and links with another parent than their counterpart on the other side, but no grippers, doors and
       other parts that touch.
 
-    None of two hundred robots of public repositories has such links.
+    In a test with 200 robots from public repositories, no robot had such links.
 
     ## Why is this bad?
     The sign of an offset is wrong, or a joint has the wrong parent link. The links collide in every state of the robot,

@@ -19,10 +19,10 @@ class TwinsTurnDifferently(RobotRule):
     """A joint and its counterpart on the other side do not make mirrored motions.
 
     ## What it does
-    Compares the axes and limits of ``revolute`` joints whose names differ only in a side (``left`` and ``right``) and
-    that are mirrored at the plane y = 0 with every joint at zero. If the axes are mirrored, equal angles make mirrored
-    motions, so the limits must be equal. If one axis is reversed, the limits must be negated and exchanged. Symmetric
-    limits, and limits that fit neither case, are not reported.
+    Compares the axes and limits of pairs of ``revolute`` joints. The names of the two joints differ only in a side
+    (``left`` and ``right``), and their positions are mirrored at the plane y = 0 with every joint at zero. If the axes
+    are mirrored, equal angles make mirrored motions, so the limits must be equal. If one axis is reversed, the limits
+    must be negated and exchanged. Symmetric limits, and limits that fit neither case, are not reported.
 
     ## Why is this bad?
     One leg moves outwards while its counterpart moves inwards. Usually the axis or the limits of one side have the

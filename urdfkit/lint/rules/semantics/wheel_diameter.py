@@ -11,8 +11,8 @@ class WheelDiameter(RobotRule):
     """The configured wheel diameter or radius of a drive differs from the size of the wheels.
 
     ## What it does
-    Compares the parameter of the drive with the cylinders and spheres of its wheels. Deviations of up to 5 % are
-    accepted. Wheels that consist only of meshes are not checked.
+    Compares the wheel diameter or radius of the drive with the cylinders and spheres of its wheels. Deviations of up to
+    5 % are accepted. Wheels that consist only of meshes are not checked.
 
     ## Why is this bad?
     The robot drives faster or slower than commanded, and its odometry is wrong by the same factor.

@@ -17,9 +17,9 @@ class WheelSeparation(RobotRule):
     """The configured wheel separation of a drive differs from the distance between its wheels.
 
     ## What it does
-    Compares the parameter with the lateral distance between the wheel joints and between the wheel shapes, with every
-    joint at zero. Deviations of up to 5 % are accepted. For skid-steer robots, with several wheels on each side, a
-    factor of up to two is accepted, because their separation is tuned to compensate for slip.
+    Compares the wheel separation of the drive with the lateral distance between the wheel joints and between the wheel
+    shapes, with every joint at zero. Deviations of up to 5 % are accepted. For skid-steer robots, with several wheels
+    on each side, a factor of up to two is accepted, because their separation is tuned to compensate for slip.
 
     ## Why is this bad?
     The robot turns more or less than commanded, and its odometry is wrong by the same factor.

@@ -9,8 +9,8 @@ class MultipleRoots(RobotRule):
 
     ## What it does
     Checks for links without a parent other than the root of the largest tree. A link is not reported if a joint names
-    an undefined child link that is probably a misspelling of it; T202 reports that joint. Each other undefined child
-    link accounts for one more link without a parent.
+    an undefined child link that is probably a misspelling of it; T202 reports that joint. Nothing is reported if the
+    other undefined child links explain all additional links without a parent.
 
     ## Why is this bad?
     A robot is a single tree. urdfdom rejects a second root, robot_state_publisher cannot connect the frames, and MuJoCo

@@ -7,8 +7,8 @@ class NoLinks(RobotRule):
     """A URDF file has no link.
 
     ## What it does
-    Checks robots in files that use no xacro and have the suffix ``.urdf`` (in upper or lower case). Other files without
-    links are fragments that a robot includes.
+    Checks for robots without links, in files that use no xacro and have the suffix ``.urdf`` (in upper or lower case).
+    Other files without links are fragments that a robot includes.
 
     ## Why is this bad?
     urdfdom rejects the file: "No link elements found in urdf file".

@@ -14,7 +14,8 @@ class UnprefixedMacroCall(SourceRule):
     """A macro call lacks the ``xacro:`` prefix.
 
     ## What it does
-    Checks for elements with the name of a macro that any of the files defines, where URDF has no element of that name.
+    Checks for elements that have the name of a macro (of any of the files) but no prefix, in places where URDF has no
+    element of that name.
 
     ## Why is this bad?
     xacro copies the element to the robot, where parsers silently ignore it. The content of the macro, such as the
