@@ -40,7 +40,9 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
     parser.add_argument(
-        "--layout", metavar="FILE", help="open the page with the layout in FILE, saved in the panel View"
+        "--layout",
+        metavar="FILE",
+        help='open the page with the layout in FILE, saved with "Save layout" in the View panel',
     )
 
 

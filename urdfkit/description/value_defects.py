@@ -150,6 +150,12 @@ def later_feature(name: str, declared: Version) -> str:
     return f"{what} needs URDF {shown(FIRST_VERSIONS[name])}, but the robot is URDF {shown(declared)}"
 
 
+def other_uses(elements: list[Element]) -> str:
+    """Return the number of uses of an attribute or tag after the first, in parentheses; empty for a single use."""
+    more = len(elements) - 1
+    return f" (also in {more} other place{'s' if more > 1 else ''})" if more else ""
+
+
 def _with_possible_values(joint: Joint) -> Joint:
     """Return a joint with exchanged limits if the lower one is above the upper one, and without `invalid_values`."""
     limit, dynamics = joint.limit, joint.dynamics
@@ -174,11 +180,10 @@ def _version(robot: Robot) -> Iterator[_Defect]:
     for name, elements in later_features(robot).items():
         if name in RATES:  # without effect on the robot
             continue
-        more = f" ({len(elements) - 1} more)" if len(elements) > 1 else ""
         effect = "it is read as in later versions" if name == "capsule" else "it is ignored"
         message = later_feature(name, version)
         link, joint = owners(robot).get(elements[0], (None, None))
-        yield _Defect("structure", "E021", message, effect + more, elements[0], name, link, joint)
+        yield _Defect("structure", "E021", message, effect + other_uses(elements), elements[0], name, link, joint)
 
 
 def _quaternions(robot: Robot) -> Iterator[_Defect]:

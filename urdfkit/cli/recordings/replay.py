@@ -20,7 +20,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_package_path(parser)
     parser.add_argument(
-        "--fixed-frame", metavar="FRAME", help="frame in which everything is shown (default: map or odom)"
+        "--fixed-frame",
+        metavar="FRAME",
+        help="frame in which everything is shown (default: world, map or odom, the first that the recording has above "
+        "the robot, else its root frame)",
     )
     parser.add_argument("--loop", action="store_true", help="start again at the end of the recording")
     add_page_options(parser)

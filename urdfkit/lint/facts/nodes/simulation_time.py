@@ -239,7 +239,7 @@ def _in_python(source: Source, tree: ast.Module) -> Defects:
 
 
 def _message() -> str:
-    return f"`{_KEY}` is false, but this file starts Gazebo, which publishes the time"
+    return f"`{_KEY}` is false, but this file starts Gazebo, which publishes simulation time"
 
 
 def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:

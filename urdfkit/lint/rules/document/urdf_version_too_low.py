@@ -1,7 +1,7 @@
 """E021 urdf-version-too-low."""
 
 from urdfkit.description.urdf.version import FIRST_VERSIONS, RATES, shown, version_of
-from urdfkit.description.value_defects import later_feature, later_features
+from urdfkit.description.value_defects import later_feature, later_features, other_uses
 from urdfkit.lint.finding import Severity
 from urdfkit.lint.fix_builders import more_attributes, new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -53,16 +53,17 @@ class UrdfVersionTooLow(RobotRule):
             uses.pop("capsule", None)
         if not uses or model.is_unresolved(root, "version"):
             return
-        needed = shown(max(FIRST_VERSIONS[name] for name in uses))
+        latest = max(uses, key=FIRST_VERSIONS.__getitem__)
+        needed = shown(FIRST_VERSIONS[latest])
         title = f"Declare version {needed}"
         if "version" in root.attributes:
             fix = new_value(model, root, "version", needed, "unsafe", title)
         else:
             fix = more_attributes(model, root, f'version="{needed}"', "unsafe", title)
         for name, elements in uses.items():
-            more = f" ({len(elements) - 1} more)" if len(elements) > 1 else ""
             effect = "urdfdom drops the shape" if name == "capsule" else "it is ignored"
-            message = f"{later_feature(name, declared)}: {effect}{more}"
-            help = f'write version="{needed}" in <robot>, if all readers of the robot support it'
+            message = f"{later_feature(name, declared)}: {effect}{other_uses(elements)}"
+            reason = "" if shown(FIRST_VERSIONS[name]) == needed else f", which `{latest}` needs"
+            help = f'write version="{needed}" in <robot>{reason}, if all readers of the robot support it'
             severity: Severity | None = "error" if name == "quat_xyzw" else "note" if name in RATES else None
             yield self.at(model, elements[0], message, attribute=name, help=help, fix=fix, severity=severity)
