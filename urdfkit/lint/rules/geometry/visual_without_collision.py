@@ -9,8 +9,8 @@ class VisualWithoutCollision(RobotRule):
     """A link has a visual but no collision shape.
 
     ## What it does
-    Checks for links with ``<visual>`` and without ``<collision>`` in robots where other links have one. The finding is
-    a warning for wheels that a plugin drives.
+    Checks for links with ``<visual>`` and without ``<collision>``, in robots where other links have a ``<collision>``.
+    The finding is a warning for wheels that a plugin drives.
 
     ## Why is this bad?
     In planners and simulators, other bodies pass through the link, and a wheel without collision shape sinks into the

@@ -10,8 +10,8 @@ class DynamicsExceedEffort(RobotRule):
     """The friction or damping of a joint is too large for its effort limit.
 
     ## What it does
-    Compares ``friction`` with the effort limit, and ``damping`` at the velocity limit with the effort limit. Reports
-    joints that the effort limit cannot move, or can move only at less than 2 % of the velocity limit.
+    Compares ``friction``, and the effort of ``damping`` at the velocity limit, with the effort limit. Reports joints
+    that the effort limit cannot move, or can move only at less than 2 % of the velocity limit.
 
     ## Why is this bad?
     The joint does not move in simulation although its controller works. Usually a decimal point or a unit is wrong.

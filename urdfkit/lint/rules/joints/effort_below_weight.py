@@ -15,8 +15,9 @@ class EffortBelowWeight(RobotRule):
     """A lift is too weak for its load.
 
     ## What it does
-    Compares the effort limit of each ``prismatic`` joint with the weight of all links that the joint carries, if its
-    axis is vertical with every joint at zero. Effort limits of zero and links without a mass are not reported here.
+    Compares the effort limit of each ``prismatic`` joint with the weight of all links that the joint carries, if the
+    axis of the joint is vertical while every joint is at zero. Effort limits of zero and links without a mass are not
+    reported here.
 
     ## Why is this bad?
     The lift sinks in simulation, regardless of the commands of its controller. Usually a digit of the effort limit or

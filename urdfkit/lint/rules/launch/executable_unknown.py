@@ -30,8 +30,8 @@ class ExecutableUnknown(RobotRule):
     ## What it does
     Checks the ``exec``, ``type`` or ``executable`` of nodes of the robot's package and its neighbours. These names are
     compared with the executables that CMakeLists.txt, setup.py or setup.cfg define and, for catkin, with the files of
-    the package. The rule also checks about fifty common released packages: it reports misspelt executables of all of
-    these packages, and executables of the other ROS version for some of them.
+    the package. The rule also checks about fifty common released packages. It reports misspelt executables of all these
+    packages and, for some packages, executables of the other ROS version.
 
     ## Why is this bad?
     The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".

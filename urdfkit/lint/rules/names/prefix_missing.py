@@ -24,8 +24,9 @@ class PrefixMissing(SourceRule):
     """A macro uses the name of a link or joint without the prefix of its definition.
 
     ## What it does
-    Checks macros that put a parameter before the names of links and joints, such as ``${prefix}forearm``, for the same
-    name without that parameter. A name is accepted if the files of the robot also define it without a prefix.
+    Checks macros that put a parameter before the names of links and joints, such as ``${prefix}forearm``. Reports a use
+    of the same name without this parameter. A name is accepted if the files of the robot also define it without a
+    prefix.
 
     ## Why is this bad?
     The robot is correct as long as the prefix is empty. With a prefix, the name is undefined, or two robots share it.

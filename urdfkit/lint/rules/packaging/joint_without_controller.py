@@ -15,8 +15,9 @@ class JointWithoutController(RobotRule):
 
     ## What it does
     Compares the command interfaces of ``<ros2_control>`` with the ROS 2 controllers in YAML. Reports a joint with a
-    command interface that no other file names, if there is only one such joint. A ``JointTrajectoryController`` or a
-    group controller must move two or more other joints of the same branch of the robot.
+    command interface if no other file names this joint, and if it is the only such joint. A
+    ``JointTrajectoryController`` or a group controller must move two or more other joints of the same branch of the
+    robot.
 
     ## Why is this bad?
     The joint keeps its position, and MoveIt plans that move it fail.

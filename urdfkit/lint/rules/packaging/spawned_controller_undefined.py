@@ -16,7 +16,7 @@ class SpawnedControllerUndefined(RobotRule):
     Checks the controllers that launch files pass to the spawner. Reports:
 
     - misspellings of a controller with a type in the YAML files of these packages
-    - in ROS 2, controllers whose parameters are in a file that sets the type of other controllers, but not theirs
+    - in ROS 2, controllers without a type, if the file with their parameters sets the type of other controllers
     - in ROS 1, controllers that the same launch file loads in a namespace other than that of the spawner
     - the only controller of a file that no launch file spawns, if no other controller moves its joints
     - in ROS 1, spawners in a namespace other than that of ``gazebo_ros_control``

@@ -15,9 +15,9 @@ class FootprintOffTheGround(RobotRule):
     """The link ``base_footprint`` is not at the height of the lowest point of the wheels.
 
     ## What it does
-    Compares the height of ``base_footprint``, or a link whose name ends in ``footprint``, with the lowest point of the
-    wheels, with every joint at zero. Wheels are continuous joints with ``wheel`` in their names and the shape of a
-    cylinder or sphere. Distances of up to 30 % of the radius are accepted.
+    Compares the height of ``base_footprint``, or of a link whose name ends in ``footprint``, with the lowest point of
+    the wheels while every joint is at zero. Wheels are continuous joints with ``wheel`` in their names and the shape of
+    a cylinder or sphere. Distances of up to 30 % of the radius are accepted.
 
     ## Why is this bad?
     The footprint is the point on the ground below the robot (REP 120). If it is above or below the wheels, the robot

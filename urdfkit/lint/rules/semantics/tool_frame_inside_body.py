@@ -9,7 +9,7 @@ class ToolFrameInsideBody(RobotRule):
     ## What it does
     Checks frames without shapes that are fixed to a link with fingers and have ``tcp``, ``tool``, ``grasp``, ``tip`` or
     ``end_effector`` in their names. Reports a frame that is inside a box or cylinder of that link, or not on the side
-    of the fingers. Also reports an optical frame of a camera that is fixed to the last link of an arm, if its z axis
+    of the fingers. Also reports the optical frame of a camera on the last link of an arm, if the z axis of the frame
     points away from the fingers or the tool.
 
     ## Why is this bad?
