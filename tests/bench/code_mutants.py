@@ -14,7 +14,7 @@ Then try mutants::
 
 It draws expressions at random on the covered lines of these folders (such as `urdfkit/sim`; without any, of the
 package), changes one comparison, operator, constant, boolean or returned value in another copy, and runs the tests
-that cover the line there, those of the module's own test file first, for up to two minutes of CPU time. Modules with
+that cover the line there, those of the module's own test file first, for up to a minute of CPU time. Modules with
 compiled kernels are ignored: a change would compile them again. Only tests that pass without a change are used, and the
 tests that noticed a mutant run once more without one at the end. Prints each mutant that no test notices, and the share
 noticed by package. Exits with status 1 below 90 %. Needs Linux.
@@ -49,7 +49,7 @@ WANTED = 0.9
 BATCH_SECONDS = 20.0
 """Time of the tests that run against a mutant in one process, without changes [s]."""
 BATCH_TESTS = 400
-MOST_BATCHES = 6
+MOST_BATCHES = 3
 TIME_LIMIT = 60
 """A mutant whose tests take more CPU time hangs and counts as noticed [s]."""
 WAITING_LIMIT = 240
