@@ -16,9 +16,10 @@ class SensorFrameUndefined(RobotRule):
     ## What it does
     Compares ``frameName``, ``frame_name``, ``gz_frame_id`` and similar elements of sensors with the links. ``world``,
     ``map`` and ``odom`` are accepted as frames outside the robot. Also reports a camera or lidar of Gazebo without any
-    of these elements, if its link has an optical frame, or if other cameras and lidars of the robot have one. Its data
-    are in a frame with the names of the model, the link and the sensor, which no link has. Sensors with plugins, robots
-    with plugins of Gazebo Classic, and robots whose launch files publish or override this frame are not checked.
+    of these elements, if its link has an optical frame, or if other cameras and lidars of the robot have such an
+    element. Gazebo then composes the frame name from the names of the model, the link and the sensor, and no link has
+    this name. Three cases are not checked: sensors with plugins, robots with plugins of Gazebo Classic, and robots
+    whose launch files publish or override this frame.
 
     ## Why is this bad?
     Images and scans are published in a frame that is missing in TF: RViz shows nothing, and localisation waits for the

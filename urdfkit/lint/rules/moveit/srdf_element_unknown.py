@@ -17,8 +17,8 @@ class SrdfElementUnknown(RobotRule):
 
     ## What it does
     Compares elements and attributes with the names that srdfdom reads. Elements of other programs are accepted unless
-    their name nearly matches one of these. A misspelt ``reason`` of a disabled pair is reported as a note. The reason
-    ``Adjacent`` is reported as a note if there are several moving joints between the links.
+    their names nearly match one of the names that srdfdom reads. A misspelt ``reason`` of a disabled pair is reported
+    as a note. The reason ``Adjacent`` is reported as a note if there are several moving joints between the links.
 
     ## Why is this bad?
     srdfdom ignores the element: the group does not exist, or the links collide.

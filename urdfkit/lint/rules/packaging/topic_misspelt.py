@@ -13,7 +13,7 @@ class TopicMisspelt(RobotRule):
     and controllers, and with ``cmd_vel``, ``odom`` and ``scan``. A name is reported if it differs from exactly one of
     these topics by one letter or by the order of two letters, and if it occurs nowhere else in the packages, including
     their code and RViz files. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the robot publishes
-    ``scan`` and nothing else names the topic.
+    ``scan`` and no other file or node names the topic of the node.
 
     If the publishers of all nodes are known, also reports topics without a publisher although the robot publishes
     messages of the same type: remapped inputs of nodes in the packages, and ``gps/fix`` of ``navsat_transform_node``.

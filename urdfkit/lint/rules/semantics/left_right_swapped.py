@@ -13,8 +13,8 @@ class LeftRightSwapped(RobotRule):
 
     ## What it does
     Checks the positions of the joints that a drive names as left and right: x points forward and y left (REP 103). Also
-    checks for wheels whose axes point right, so that they roll backwards, including those of a
-    ``diff_drive_controller`` that a Gazebo plugin of the robot runs, without negative multipliers.
+    checks for wheels whose axes point right, so that they roll backwards. This check includes the wheels of a
+    ``diff_drive_controller`` without negative multipliers that a Gazebo plugin of the robot runs.
 
     ## Why is this bad?
     The robot turns in the wrong direction. The drive plugin of Gazebo Classic up to ROS Indigo swaps the sides itself,

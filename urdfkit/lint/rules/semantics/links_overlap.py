@@ -15,10 +15,9 @@ class LinksOverlap(RobotRule):
     - The centre of a link is inside a link that is at least two joints closer to the root, such as a hand in an upper
       arm. Both links must have a single shape. Stages of telescopes and joints whose limits exclude zero are not
       compared.
-
-    - A link is in a link on another branch, such as a wheel in the wheel next to it. Compares links that turn about
-      their centres and links with another parent than their counterpart on the other side, but no grippers, doors and
-      other parts that touch.
+    - A link is in a link on another branch, such as a wheel in the wheel next to it. Only two kinds of links are
+      compared: links that turn about their centres, and links whose parent differs from that of their counterpart on
+      the other side. Grippers, doors and other parts that touch are not compared.
 
     In a test with 200 robots from public repositories, no robot had such links.
 

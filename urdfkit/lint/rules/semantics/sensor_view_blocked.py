@@ -8,8 +8,8 @@ class SensorViewBlocked(RobotRule):
 
     ## What it does
     Checks for Gazebo cameras and lidars that are inside a box, cylinder or sphere of another link, or whose view ends
-    at such a shape within a metre. Also checks for lidars that see the robot in at least a quarter of their view, and
-    would not see it if they were rotated by 180°. Only links that are fixed to the link of the sensor are compared.
+    at such a shape within a metre. Also checks for lidars that see the robot in at least a quarter of their view, but
+    would not see the robot after a rotation by 180°. Only links that are fixed to the link of the sensor are compared.
     Shapes with a diagonal of up to 0.25 m are ignored, because they are usually housings of the sensor.
 
     ## Why is this bad?
