@@ -31,8 +31,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "       [--view | --html FILE] [option ...]"
     )
     parser.epilog = (
-        "reasons for disabling a pair of links: Adjacent (a joint connects them), Default (they collide at zero\n"
-        "  positions), Always or Never (they collide in every sample, or in none)\n"
+        "reasons for disabling a pair: Adjacent (a joint connects the links),\n"
+        "  Default (they collide at zero positions),\n"
+        "  Always or Never (they collide in every sample, or in none)\n"
         "examples:\n"
         "  urdfkit srdf seven_dof_arm -o seven_dof_arm.srdf\n"
         "  urdfkit srdf arm.urdf --group arm=base_link:tool0 --samples 500000\n"
