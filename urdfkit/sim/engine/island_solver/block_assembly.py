@@ -5,7 +5,7 @@ from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
-from urdfkit.sim.engine.math.simd import load6, store
+from urdfkit.sim.engine.math.simd import load4, load6, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
@@ -21,15 +21,30 @@ def add_three(K: Any, n: int, i: int, j: int, Y: Any, at: int, to: int, width: i
 
 
 @inlined
+def add_diagonal(K: Any, n: int, i: int, Y: Any, at: int, width: int, d: Any) -> None:
+    """Add aᵀ·D·a to a block on the diagonal of K, of which only the upper triangle is used."""
+    first, second, third = load6(Y, at), load6(Y, at + width), load6(Y, at + 2 * width)
+    for k in range(2):
+        a, b, c = d[0] * Y[at + k], d[1] * Y[at + width + k], d[2] * Y[at + 2 * width + k]
+        here = (i + k) * n + i
+        store(K, here, load6(K, here) + a * first + b * second + c * third)
+    one, other, last = load4(Y, at + 2), load4(Y, at + width + 2), load4(Y, at + 2 * width + 2)
+    for k in range(2, 6):
+        a, b, c = d[0] * Y[at + k], d[1] * Y[at + width + k], d[2] * Y[at + 2 * width + k]
+        here = (i + k) * n + i + 2
+        store(K, here, load4(K, here) + a * one + b * other + c * last)
+
+
+@inlined
 def add_contact(w: KernelWorld, k: int, n: int, d: Any) -> None:
     """Add the contribution of a contact's three rows to K where all of its trees have six dofs."""
     width = w.sizes[WIDTH]
     K = w.B
     i, at = w.at_a[k], k * width
-    add_three(K, n, i, i, w.Y, at, at, width, d)
+    add_diagonal(K, n, i, w.Y, at, width, d)
     if w.of_b[k] == 6:
         j = w.at_b[k]
-        add_three(K, n, j, j, w.Y, at + 6, at + 6, width, d)
+        add_diagonal(K, n, j, w.Y, at + 6, width, d)
         if i < j:
             add_three(K, n, i, j, w.Y, at, at + 6, width, d)
         else:

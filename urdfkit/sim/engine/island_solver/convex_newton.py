@@ -231,12 +231,12 @@ def limit_corrections(w: KernelWorld, rows: int) -> None:
     """Limit the corrections of penetrations and joint errors by the current velocities."""
     bias, speed = w.row_bias, w.block_v
     for k in range(rows):
-        if w.high[k] < math.inf:
+        if w.high[k] < math.inf or bias[k] == 0.0 or (bias[k] > 0.0 and w.low[k] > -math.inf):
             continue
         off = w.slip[k] + row_speed(w, k, speed)
         if bias[k] < 0.0 and off < 0.0:
             taken = min(-off, -bias[k])
-        elif w.low[k] == -math.inf and bias[k] > 0.0 and off > 0.0:
+        elif bias[k] > 0.0 and off > 0.0:
             taken = -min(off, bias[k])
         else:
             continue
