@@ -45,7 +45,7 @@ HEAP_STEPS, HEAP_TOTAL = 4, 10
 """Most steps of Newton's method in a round of a heap, and those of all rounds beyond which no other begins: the next
 step continues from there."""
 GROSS = 1e-2
-"""Velocity [m/s or rad/s] by which rounds may violate the law in a heap: sixty sweeps leave as much, and sway.
+"""Velocity [m/s or rad/s] by which rounds may violate the law in a heap: the sweeps leave as much, and sway.
 
 Where the law is violated by more already at the velocities of the last step, as where a body strikes, two rounds do not
 come nearer. What lies is off by no more than a tenth of a millimetre per second.

@@ -7,7 +7,7 @@ as there are contacts, and there are no more than `SWEEPS`.
 
 Sweeps alone carry a load from one contact to the next. In a tower, a missing impulse at the foot reaches the top some
 steps later, and the tower sways for ever as if on springs. Therefore, contacts are swept in their order and back, and
-the resulting change of impulses is the gradient of a method of conjugate gradients, see `conjugate_gradient`.
+the resulting change of impulses is accelerated, see `nesterov_acceleration`.
 
 Penetrations that are to be taken back contradict each other where a body lies on more points than it needs: some sweeps
 later what could not be taken back is left, or impulses would grow with each sweep.
@@ -21,14 +21,16 @@ from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
-from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT, go_further, note
-from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, push_row, row_speed
+from urdfkit.sim.engine.island_solver.block_matrix import MOST_TREES
+from urdfkit.sim.engine.island_solver.jacobian_products import add_impulse, push_row, row_speed
+from urdfkit.sim.engine.island_solver.nesterov_acceleration import KEPT, begin_acceleration, go_further, note
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load4, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
 
-SWEEPS = 60
-"""Most sweeps of a step, each way counted."""
+SWEEPS, FEWER = 60, 40
+"""Most sweeps of a step, each way counted: of islands of more trees than blocks take, and of others, which get rounds
+in other steps."""
 LEAVE_EVERY = 10
 """Sweeps after which what could not be taken back of penetrations is left."""
 STILL = 1e-9
@@ -44,13 +46,24 @@ def speed_of(w: KernelWorld, k: int) -> float:
 
 
 @inlined
-def delassus_entry(w: KernelWorld, i: int, j: int) -> float:
-    """Return the product of two whitened rows of the same trees."""
-    width = w.sizes[WIDTH]
+def squared_length(w: KernelWorld, k: int) -> float:
+    """Return the square of a whitened row, which is the inverse of its effective mass."""
+    at = k * w.sizes[WIDTH]
     total = 0.0
-    for d in range(w.of_a[i] + w.of_b[i]):
-        total += w.Y[i * width + d] * w.Y[j * width + d]
+    for d in range(w.of_a[k] + w.of_b[k]):
+        total += w.Y[at + d] * w.Y[at + d]
     return total
+
+
+@inlined
+def delassus_row(w: KernelWorld, k: int, j: int) -> Any:
+    """Return the products of the j-th whitened row of a contact with all three, from ``columns``."""
+    Z, at = w.columns, k * w.sizes[WIDTH]
+    total = Z[at + j] * load4(Z, at)
+    for d in range(1, w.of_a[k] + w.of_b[k]):
+        total = total + Z[at + 3 * d + j] * load4(Z, at + 3 * d)
+    store(w.pair, 0, total)
+    return w.pair[0], w.pair[1], w.pair[2]
 
 
 @inlined
@@ -101,16 +114,18 @@ def prepare(w: KernelWorld, rows: int) -> None:
         w.g[k] = free
     k = 0
     while k < rows:
-        own, at = delassus_entry(w, k, k), KEPT * k // 3
+        at = KEPT * k // 3
         if w.mu[k] > 0.0:
-            ss, tt = delassus_entry(w, k + 1, k + 1), delassus_entry(w, k + 2, k + 2)
-            ns, nt = delassus_entry(w, k, k + 1), delassus_entry(w, k, k + 2)
-            keep_inverse(w.A, at, own, ss, tt, ns, nt, delassus_entry(w, k + 1, k + 2))
             for d in range(w.of_a[k] + w.of_b[k]):
                 to, of = k * width + 3 * d, k * width + d
                 w.columns[to], w.columns[to + 1], w.columns[to + 2] = w.Y[of], w.Y[of + width], w.Y[of + 2 * width]
+            nn, ns, nt = delassus_row(w, k, 0)
+            _, ss, st = delassus_row(w, k, 1)
+            _, _, tt = delassus_row(w, k, 2)
+            keep_inverse(w.A, at, nn, ss, tt, ns, nt, st)
             k += 3
             continue
+        own = squared_length(w, k)
         w.A[at] = 1.0 / own if own > 0.0 else 0.0
         k += 1
 
@@ -170,7 +185,7 @@ def put_right(w: KernelWorld, k: int) -> float:
                 q, r = q * most, r * most
         moved = max(A[at + 11] * abs(p - n), A[at + 12] * max(abs(q - a), abs(r - b)))
     x[k], x[k + 1], x[k + 2] = p, q, r
-    push_contact(w, k, p - n, q - a, r - b, w.u)
+    add_impulse(w, k, p - n, q - a, r - b, w.u)
     return float(moved)
 
 
@@ -209,23 +224,48 @@ def put_row_right(w: KernelWorld, k: int) -> float:
 
 
 @compiled
-def sweep_both_ways(w: KernelWorld, rows: int) -> float:
-    """Put all contacts and rows right in their order, then in reverse; return by how much velocities change."""
+def interleave(w: KernelWorld, rows: int) -> int:
+    """List the contacts and single rows in ``index``, each by its first row; return how many there are.
+
+    The processor visits a contact while the one before it is not finished, unless both move the same body. Therefore,
+    the contacts between two trees do not follow each other.
+    """
+    rank, order = w.redundant, w.index
+    most = last = k = 0
+    while k < rows:
+        same = k > 0 and w.row_a[k] == w.row_a[last] and w.row_b[k] == w.row_b[last]
+        rank[k] = rank[last] + 1 if same else 0
+        most = max(most, rank[k])
+        last = k
+        k += 3 if w.mu[k] > 0.0 else 1
+    count = 0
+    for each in range(most + 1):
+        k = 0
+        while k < rows:
+            if rank[k] == each:
+                order[count] = k
+                count += 1
+            k += 3 if w.mu[k] > 0.0 else 1
+    return count
+
+
+@compiled
+def sweep_both_ways(w: KernelWorld, count: int) -> float:
+    """Correct all contacts and rows in the order of `interleave`, then in reverse; return the change of velocities."""
     moved = 0.0
-    for back in range(2):
-        k = 0 if back == 0 else rows - 1
-        while 0 <= k < rows:
-            # Going back, the last row of a contact comes first.
-            if back == 1 and k >= 2 and w.mu[k - 2] > 0.0:
-                k -= 2
-            size = 1
-            if w.mu[k] > 0.0:
-                moved = max(moved, put_right(w, k))
-                size = 3
-            else:
-                moved = max(moved, put_row_right(w, k))
-            k = k + size if back == 0 else k - 1
+    for i in range(1 - count, count):
+        k = w.index[count - 1 - abs(i)]
+        moved = max(moved, put_right(w, k) if w.mu[k] > 0.0 else put_row_right(w, k))
     return moved
+
+
+@inlined
+def most_sweeps(w: KernelWorld, root: int) -> int:
+    """Return how many sweeps an island gets at most."""
+    trees, tree = 0, root
+    while tree >= 0:
+        trees, tree = trees + 1, w.island_next[tree]
+    return SWEEPS if trees > MOST_TREES else FEWER
 
 
 @compiled
@@ -243,20 +283,20 @@ def sweep(w: KernelWorld, root: int, rows: int) -> int:
     for k in range(rows):
         w.x[k] = w.before[k]
         push_row(w, k, w.x[k], w.u)
+    begin_acceleration(w, root, rows)
+    count, most = interleave(w, rows), most_sweeps(w, root)
     done = 0
     moved = math.inf
-    size = 0.0
+    momentum = 1.0
     while True:
-        note(w, root, rows)
-        moved = sweep_both_ways(w, rows)
+        note(w, rows)
+        moved = sweep_both_ways(w, count)
         done += 2
         if done % LEAVE_EVERY == 0:
             leave_unmet(w, rows)
-            size = 0.0
-        if moved <= STILL or done >= SWEEPS:
+        if moved <= STILL or done >= most:
             break
-        if done % LEAVE_EVERY != 0:
-            size = go_further(w, root, rows, size)
+        momentum = go_further(w, root, rows, momentum)
     met, brought = work_of(w, rows)
     if met + brought > 0.0:
         # Impulses never bring energy: they are all made smaller, and stay in their cones.
@@ -264,4 +304,4 @@ def sweep(w: KernelWorld, root: int, rows: int) -> int:
         for k in range(rows):
             push_row(w, k, (share - 1.0) * w.x[k], w.u)
             w.x[k] *= share
-    return done if moved <= STILL else SWEEPS + 1
+    return done if moved <= STILL else most + 1

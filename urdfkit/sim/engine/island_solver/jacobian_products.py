@@ -88,9 +88,9 @@ def push_six(Y: Any, at: int, width: int, a: float, b: float, c: float, x: Any, 
     store(x, first, load6(x, first) + (a * load6(Y, at) + b * load6(Y, at + width) + c * load6(Y, at + 2 * width)))
 
 
-@compiled
-def push_contact(w: KernelWorld, k: int, a: float, b: float, c: float, x: Any) -> None:
-    """Add the impulses of a contact's three rows to x, in the order of the blocks."""
+@inlined
+def add_impulse(w: KernelWorld, k: int, a: float, b: float, c: float, x: Any) -> None:
+    """Do what `push_contact` does, as part of the caller."""
     width = w.sizes[WIDTH]
     of_a, of_b = w.of_a[k], w.of_b[k]
     if of_a == 6 and (of_b == 6 or of_b == 0):
@@ -101,6 +101,12 @@ def push_contact(w: KernelWorld, k: int, a: float, b: float, c: float, x: Any) -
     push_row(w, k, a, x)
     push_row(w, k + 1, b, x)
     push_row(w, k + 2, c, x)
+
+
+@compiled
+def push_contact(w: KernelWorld, k: int, a: float, b: float, c: float, x: Any) -> None:
+    """Add the impulses of a contact's three rows to x, in the order of the blocks."""
+    add_impulse(w, k, a, b, c, x)
 
 
 @inlined

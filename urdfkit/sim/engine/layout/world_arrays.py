@@ -11,7 +11,7 @@ from urdfkit.sim.engine.collision.geometry_arrays import Geometry
 from urdfkit.sim.engine.collision.support_points import HULL, MESH
 from urdfkit.sim.engine.contact_surface import Ground, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
-from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT
+from urdfkit.sim.engine.island_solver.nesterov_acceleration import KEPT
 from urdfkit.sim.engine.layout.collision_shapes import box_of, still_box
 from urdfkit.sim.engine.layout.tree_arrays import branch_entries, fill_branches, fill_free, fill_member
 from urdfkit.sim.engine.simulation_memory import Arrays, allocate
