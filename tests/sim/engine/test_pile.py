@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import cos, sin
+
 import numpy as np
 import pytest
 
@@ -51,6 +54,20 @@ def test_thirty_bodies_dropped_in_columns_stay_in_their_box(engine_of):
         carried += contact.force[2] * ((contact.a in engine.bodies) - (contact.b in engine.bodies))
     weight = G * sum(body.body.mass for body in engine.bodies.values())
     assert carried == pytest.approx(weight, rel=0.02)
+
+
+@pytest.mark.parametrize(("along", "tilt"), [(0.02, -0.3), (0.11, -0.5), (0.11, 0.1), (0.11, 0.2), (0.11, 0.3)])
+def test_boxes_that_lean_on_each_other_need_no_rounds_at_rest(engine_of, along, tilt):
+    yaw = 0.1
+    turned = (0.0, sin(0.5 * tilt) * cos(0.5 * yaw), sin(0.5 * yaw) * cos(0.5 * tilt), cos(0.5 * tilt) * cos(0.5 * yaw))
+    turned /= np.linalg.norm(turned)
+    upper = replace(cube("c", (0.0, 0.0, 0.0)), pose=(X + along, 0.02, 0.35, *turned))
+    engine = rover(engine_of, bodies=[cube("a", (X, 0.0, 0.1)), cube("b", (X + 0.21, 0.0, 0.1)), upper], sleep=False)
+    engine.step(2500)
+    assert np.abs(engine.v).max() < 1e-6
+    before = engine.iterated
+    engine.step(100)
+    assert engine.iterated == before
 
 
 def test_a_wall_of_bricks_is_solved_by_blocks_and_stands(engine_of):

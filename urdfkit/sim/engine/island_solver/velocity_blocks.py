@@ -6,10 +6,10 @@ nothing to do with each other. With the rows taken for stiff dampers the matrix 
 for each pair of trees that touch. It is factored in the order in which the fewest blocks fill in.
 
 `active_set` tries what rows do, from what they did in the last step; in heaps only at rest, since elsewhere they change
-in too many places. If that fails, a tree alone is tried once more with tiny penetrations and gaps left as they are:
-they contradict rows that hold, of friction too, as at a robot that is jammed. If that fails as well,
-`augmented_blocks` solves the law with a penalty where rows are fast; if that fails, too, `augmented_lagrangian` gets
-there from anywhere.
+in too many places. If that fails, a tree alone, or a small island at rest, is tried once more with tiny penetrations
+and gaps left as they are: they contradict rows that hold, of friction too, as at a robot that is jammed, or at boxes
+that lean on each other. The next steps then begin with that. If it fails as well, `augmented_blocks` solves the law
+with a penalty where rows are fast; if that fails, too, `augmented_lagrangian` gets there from anywhere.
 """
 
 import math
@@ -93,9 +93,12 @@ def guesses_again(w: KernelWorld, root: int) -> bool:
 
 
 @inlined
-def note_guess(w: KernelWorld, root: int, failed: bool) -> None:
-    """Count the guesses, or a heap's rounds, that failed in turn, and set in how many steps none is made."""
-    failures = w.unguessed[2 * root] + 1 if failed else 0
+def note_guess(w: KernelWorld, root: int, failed: bool, left: bool) -> None:
+    """Count the guesses, or a heap's rounds, that failed in turn, and set in how many steps none is made.
+
+    A guess that succeeds because of what `leave` left counts as a failure.
+    """
+    failures = w.unguessed[2 * root] + 1 if failed else (1 if left else 0)
     w.unguessed[2 * root] = failures
     w.unguessed[2 * root + 1] = min(LONGEST, max(0, failures - FAILURES + 1))
 
@@ -114,8 +117,11 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
     n = arrange(w, root, rows)
     if n == 0:
         return 0
+    several, failed = w.island_next[root] >= 0, w.unguessed[2 * root] > 0
+    # Between trees that move, biases are more than penetrations: see `correct_contact_point`.
     guessed = rows <= HEAP
-    if not guessed:
+    leaves = not several
+    if not guessed or (several and failed):
         tree = root
         while tree >= 0:
             first = w.tree_dof[tree]
@@ -123,7 +129,10 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
             for d in range(first, w.tree_dof[tree + 1]):
                 speed[at + d - first] = w.v_start[d]
             tree = w.island_next[tree]
-        guessed = is_calm(w, rows)
+        calm = is_calm(w, rows)
+        # In a heap, it would seldom help.
+        leaves = leaves or (guessed and calm)
+        guessed = guessed or calm
         if not guessed and not guesses_again(w, root):
             return 0
     tree = root
@@ -143,7 +152,6 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
         largest = max(largest, abs(g[k]))
     compute_row_stiffness(w, root, rows)
     stiffen(w, rows)
-    first_hold(w, rows)
     # As `solve` has it.
     tiny = 1e-11 * largest + 1e-14
     most = 0.0
@@ -152,15 +160,21 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
     most *= WILD
     fast = rows <= HEAP and largest > FAST
     done = 0
-    if guessed and (not fast or w.island_next[root] < 0 or guesses_again(w, root)):
-        done = try_states(w, root, rows, n, tiny, most)
-        note_guess(w, root, done == 0)
-    # Between trees, biases are more than penetrations: see `correct_contact_point`.
-    if done == 0 and guessed and w.island_next[root] < 0 and leave(w, rows):
-        first_hold(w, rows)
-        again = try_states(w, root, rows, n, tiny, most)
-        done = 1 + again if again > 0 else 0
-        take_up(w, rows)
+    if guessed and (not fast or not several or guesses_again(w, root)):
+        left = False
+        for attempt in range(2 if leaves else 1):
+            left_before = left
+            left = leaves and failed == (attempt == 0) and leave(w, rows)
+            if attempt == 1 and left == left_before:
+                break
+            first_hold(w, rows)
+            tried = try_states(w, root, rows, n, tiny, most)
+            if left:
+                take_up(w, rows)
+            if tried > 0:
+                done = attempt + tried
+                break
+        note_guess(w, root, done == 0, left)
     if done == 0 and fast:
         done = -solve_augmented(w, root, rows, n, tiny)
     if done == 0 and (rows <= HEAP or not guessed or guesses_again(w, root)):
@@ -176,7 +190,7 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
             tree = w.island_next[tree]
         done = -go_round(w, root, rows, n, tiny, most)
         if rows > HEAP:
-            note_guess(w, root, done == 0)
+            note_guess(w, root, done == 0, False)
         if done == 0:
             for k in range(rows):
                 w.row_bias[k], w.before[k] = w.ahead[k], w.last[w.slot[k]]
