@@ -4,7 +4,7 @@ from launch_ros.actions import Node
 SERVERS = [
     "planer_server",  # <!-- expect: L117 -->
     "amcl_node",  # <!-- expect: L117 -->
-    "map_server",  # <!-- expect: L117 -->
+    "map_server",
     "bt_navigator",
     "smoother_server",  # <!-- expect: L117 -->
 ]

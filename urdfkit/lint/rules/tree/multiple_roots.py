@@ -9,8 +9,7 @@ class MultipleRoots(RobotRule):
 
     ## What it does
     Checks for links without a parent other than the root of the largest tree. A link is not reported if a joint names
-    an undefined child link that is probably a misspelling of it; T202 reports that joint. Nothing is reported if the
-    other undefined child links explain all additional links without a parent.
+    an undefined child link that is probably a misspelling of it; T202 reports that joint.
 
     ## Why is this bad?
     A robot is a single tree. urdfdom rejects a second root, robot_state_publisher cannot connect the frames, and MuJoCo
@@ -43,11 +42,10 @@ class MultipleRoots(RobotRule):
         joint_by_unknown_child: dict[str, str] = {}
         for joint, name, _ in dangling(robot, "child"):
             joint_by_unknown_child.setdefault(name, joint.name)
-        likely = likely_children(robot)
-        meant = set(likely.values())
+        meant = set(likely_children(robot).values())
         masked = model.masked_names
         roots = [link for link in roots if link.name not in meant and not masked.has_child(link.name)]
-        if len(roots) < 2 + len(joint_by_unknown_child.keys() - likely.keys()):
+        if len(roots) < 2:
             return
         main = max(roots, key=lambda link: len(links_below(robot, link.name)))
         for link in roots:
