@@ -63,7 +63,7 @@ def generate_launch_description():
 """
 MISTAKES = [
     ("on_exit=others", "on_exit=[others]", 38, "this list of actions is inside of another list; write `*` before it"),
-    ("[name, ", '["name", ', 13, "this is the text `name`, not the value with this name; write it without quotes"),
+    ("[name, ", '["name", ', 13, "`name` in quotes is a string, not the variable `name`; write it without quotes"),
     ("[name, ", "[name + ", 13, "no comma before this option: it becomes part of the word before it"),
     ('"--quiet"', '"--quiet "', 13, "`--quiet ` ends with a blank, so it is an unknown option"),
     ("list(more)", 'list("more")', 13, "this makes a list of single letters; write the string in brackets"),
@@ -134,7 +134,7 @@ def test_a_mistake_has_one_finding_at_its_line(tmp_path, old, new, line, message
             'LaunchConfiguration("quiet")',
             "an item of `parameters` is the value",
         ),
-        ('LaunchConfiguration("mode")', '"mode"', "this is the text `mode`, not the value with this name; write it "),
+        ('LaunchConfiguration("mode")', '"mode"', "`mode` in quotes is a string, not the value of the launch argument"),
     ],
 )
 def test_parameters_in_inner_lists_and_in_quotes_are_reported(tmp_path, old, new, message):
@@ -210,7 +210,7 @@ INSTALL = "install(DIRECTORY config {more} DESTINATION share/${{PROJECT_NAME}}{t
     [
         ("dev", "$(var map)", None),
         ("dev", "maps", None),
-        ("dev", "map", "this is the text `map`, not the launch argument; write `$(var map)`"),
+        ("dev", "map", "`map` is a string here, not the value of the launch argument; write `$(var map)`"),
         ("global_frame", "map", None),
     ],
 )

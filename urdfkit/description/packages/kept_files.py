@@ -32,7 +32,7 @@ _results: ContextVar[_Results | None] = ContextVar("_results", default=None)
 
 
 @contextmanager
-def unchanged_files() -> Iterator[None]:
+def keeping_results() -> Iterator[None]:
     """Keep the results of functions with the decorator `kept` while the context is entered."""
     outer = _results.get()
     token = _results.set(_Results() if outer is None else outer)
@@ -43,7 +43,7 @@ def unchanged_files() -> Iterator[None]:
 
 
 def kept(read: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Return a function of positional arguments that is called once for each of them in `unchanged_files`."""
+    """Return a function of positional arguments that is called once for each of them in `keeping_results`."""
 
     @wraps(read)
     def current(*arguments: Parameters.args, **no_names: Parameters.kwargs) -> Result:

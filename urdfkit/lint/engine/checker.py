@@ -6,7 +6,7 @@ import os
 import re
 from pathlib import Path
 
-from urdfkit.description.packages.kept_files import unchanged_files
+from urdfkit.description.packages.kept_files import keeping_results
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.engine.cache import packages_of
@@ -135,7 +135,7 @@ class Checker:
         self.packages = cache.packages if cache is not None else packages_of(options)
         self.runner = RuleRunner(options, keep_going=keep_going)
 
-    @unchanged_files()
+    @keeping_results()
     def check(self, entry: Entry) -> EntryResult:
         """Lint one entry file and all files it includes."""
         from urdfkit.description.xml.cost_limit import CostError

@@ -23,6 +23,20 @@ def diff_drives(model: Model) -> Iterator[tuple[Source, ControllerSettings]]:
                     yield source, controller
 
 
+def simulated_diff_drives(model: Model) -> Iterator[tuple[ControllerSettings, list[Wheel], list[Wheel]]]:
+    """Yield the controllers of differential drives that Gazebo runs, with their left and right wheels.
+
+    Yields nothing for a robot whose wheels can belong to another drive.
+    """
+    from urdfkit.lint.facts.gazebo.plugins import runs_controllers
+
+    if not runs_controllers(model.robot) or has_other_wheels(model):
+        return
+    for _, controller in diff_drives(model):
+        left, right = ([wheel for _, wheel in wheels_of(controller, model, side)] for side in ("left", "right"))
+        yield controller, left, right
+
+
 def steering_wheels(model: Model) -> Iterator[tuple[Source, Node, str, list[Wheel]]]:
     """Yield the group and name of the radius of the wheels that a steering controller drives, and these wheels.
 

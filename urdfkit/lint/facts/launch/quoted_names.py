@@ -44,8 +44,14 @@ def quoted_names(source: Source) -> Iterator[tuple[ast.expr, str]]:
         parameters = {each.arg for each in (*function.args.args, *function.args.kwonlyargs)} - _loaded(inner)
         inner_texts = _texts(inner) if parameters else ()
         found += [text for text, key in inner_texts if text.value in parameters and key in ("", text.value)]
+    variables = assigned | {node.arg for node in nodes if isinstance(node, ast.arg)}
     for text in found:
-        yield text, f"this is the text `{text.value!s}`, not the value with this name; write it without quotes"
+        name = str(text.value)
+        if name in variables:
+            yield text, f"`{name}` in quotes is a string, not the variable `{name}`; write it without quotes"
+        else:
+            right = f'write `LaunchConfiguration("{name}")`'
+            yield text, f"`{name}` in quotes is a string, not the value of the launch argument `{name}`; {right}"
 
 
 def _loaded(nodes: list[ast.AST]) -> set[str]:
@@ -126,4 +132,5 @@ def quoted_arguments(source: Source) -> Iterator[tuple[Attribute, str]]:
                     own = tag.attributes.get("name") if name == "value" else None
                     is_of_other = own is not None and _NAMES_OF_OTHERS.search(own.value) is not None
                     if text in (spaces if name in ("ns", "namespace") else ()) or (text in unused and not is_of_other):
-                        yield attribute, f"this is the text `{text}`, not the launch argument; write `$({word} {text})`"
+                        hint = f"write `$({word} {text})`"
+                        yield attribute, f"`{text}` is a string here, not the value of the launch argument; {hint}"

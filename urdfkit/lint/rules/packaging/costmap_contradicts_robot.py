@@ -168,7 +168,7 @@ def _size(model: Model) -> _Size | None:
 def _towed(model: Model, wheels: Sequence[Wheel]) -> set[str]:
     """Return the links of trailers: what turns about a vertical axis on wheels that are far apart, unlike a caster."""
     towed: set[str] = set()
-    for joint in model.robot.joints:
+    for joint in model.robot.joints if len(wheels) > 1 else ():
         frame, axis = model.frames.get(joint.child or ""), unit(joint.axis)
         if not joint.is_movable or frame is None or axis is None or abs(rotate(frame.rotation, axis)[2]) < _VERTICAL:
             continue

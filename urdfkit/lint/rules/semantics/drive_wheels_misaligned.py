@@ -95,14 +95,10 @@ class DriveWheelsMisaligned(RobotRule):
 
     def _of_controllers(self, model: Model) -> Findings:
         """Yield a finding for each pair of wheels of a simulated diff_drive_controller that do not match."""
-        from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels, wheels_of
-        from urdfkit.lint.facts.gazebo.plugins import runs_controllers
+        from urdfkit.lint.facts.control.controller_wheels import simulated_diff_drives
 
-        if not runs_controllers(model.robot):
-            return
-        for _, controller in diff_drives(model):
-            left, right = ([wheel for _, wheel in wheels_of(controller, model, side)] for side in ("left", "right"))
-            if not left or len(left) != len(right) or has_other_wheels(model):
+        for _, left, right in simulated_diff_drives(model):
+            if not left or len(left) != len(right):
                 continue
             for one, other in zip(left, right, strict=True):
                 defect = _defect(one, other) if one.joint is not other.joint else None

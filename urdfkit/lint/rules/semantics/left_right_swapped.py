@@ -83,18 +83,14 @@ class LeftRightSwapped(RobotRule):
 
     def _of_controllers(self, model: Model) -> Findings:
         """Yield a finding for each simulated diff_drive_controller whose wheels, on the right sides, roll backwards."""
-        from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels, wheels_of
+        from urdfkit.lint.facts.control.controller_wheels import simulated_diff_drives
         from urdfkit.lint.facts.control.yaml_tree import number_of
-        from urdfkit.lint.facts.gazebo.plugins import runs_controllers
 
-        if not runs_controllers(model.robot):
-            return
-        for _, controller in diff_drives(model):
-            left, right = ([wheel for _, wheel in wheels_of(controller, model, side)] for side in ("left", "right"))
+        for controller, left, right in simulated_diff_drives(model):
             is_on_side = bool(left and right) and left[0].place[1] > right[0].place[1]
             radii = [value for key, value in controller.group.entries if "radius" in key.text]
             is_reversed = any((number_of(value) or 0.0) < 0.0 for value in radii)
-            if is_on_side and not is_reversed and _roll_backwards(left, right) and not has_other_wheels(model):
+            if is_on_side and not is_reversed and _roll_backwards(left, right):
                 yield self._backwards(model, left[0], right[0])
 
     def _backwards(self, model: Model, left: Wheel, right: Wheel) -> Finding:
