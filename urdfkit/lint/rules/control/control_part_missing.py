@@ -18,8 +18,8 @@ class ControlPartMissing(RobotRule):
 
     ## Why is this bad?
     transmission_interface skips an incomplete transmission, and the resource manager of ros2_control rejects the
-    description, so controllers do not find the joints. With a ratio of zero, both throw "reduction ratio cannot be
-    zero".
+    description, so controllers do not find the joints. With a ratio of zero, both libraries throw "reduction ratio
+    cannot be zero".
 
     ## Example
     ```diff

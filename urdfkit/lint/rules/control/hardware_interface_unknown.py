@@ -20,13 +20,13 @@ class HardwareInterfaceUnknown(RobotRule):
 
     ## What it does
     Checks for ``<hardwareInterface>`` values that nearly match an interface of the hardware_interface package.
-    Interfaces of other packages are accepted. In robots with gazebo_ros_control, transmissions that its default
-    hardware does not simulate are reported as notes: transmissions with several joints, or with an interface other than
-    position, velocity or effort.
+    Interfaces of other packages are accepted. If the robot uses gazebo_ros_control, the rule also reports, as notes,
+    the transmissions that the default hardware of gazebo_ros_control does not simulate. These transmissions have
+    several joints, or an interface other than position, velocity or effort.
 
     ## Why is this bad?
-    Loading fails with "No suitable hardware interface", and controllers for the joint do not start. `urdfkit sim`
-    ignores the transmission.
+    The transmission fails to load with "No suitable hardware interface", and controllers for the joint do not start.
+    `urdfkit sim` ignores the transmission.
 
     ## Example
     ```diff

@@ -17,7 +17,8 @@ class InterfaceCombination(RobotRule):
     ## What it does
     Checks the ``<command_interface>`` and ``<state_interface>`` elements of each joint for duplicate names, and for
     names that nearly match ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names are reported as a
-    note if the hardware runs in a simulator, and are accepted otherwise: hardware may define its own interfaces.
+    note if the hardware runs in a simulator. Otherwise they are accepted, because hardware may define its own
+    interfaces.
 
     ## Why is this bad?
     The controller manager stops, or the controller finds no interface to claim.

@@ -27,8 +27,8 @@ class InterfaceLimits(RobotRule):
     ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` that is not below its ``max``, and
     values that appear to be in degrees, are reported as warnings. Any other value beyond the limit of the joint is
     reported as a note, because the narrower limit still applies. An ``initial_value`` of the position outside the joint
-    limits is reported as a warning. If a single position interface has a narrower limit than its joint, and all other
-    limits equal those of their joints, the narrower limit is reported as a note.
+    limits is reported as a warning. If exactly one position interface has a narrower limit than its joint, and all
+    other interfaces have the limits of their joints, the narrower limit is reported as a note.
 
     ## Why is this bad?
     One of the two values is wrong. With ``min`` above ``max``, no command is accepted. The effect of limits that are

@@ -22,12 +22,12 @@ class HardwareMismatch(RobotRule):
     """The hardware of ``<ros2_control>`` does not match the Gazebo plugin of the robot.
 
     ## What it does
-    Each plugin that runs the controller manager in Gazebo has its own hardware: ``gazebo_ros2_control/GazeboSystem``
-    for gazebo_ros2_control, ``gz_ros2_control/GazeboSimSystem`` for gz_ros2_control, and
-    ``ign_ros2_control/IgnitionSystem`` for ign_ros2_control. The rule reports hardware of another plugin, and
-    misspellings of these names and of ``mock_components/GenericSystem``. Branches of ``xacro:if`` that are not expanded
-    are checked too. Other hardware is reported as a note if the robot has such a plugin, because Gazebo does not
-    control the joints of that hardware.
+    Each plugin that runs the controller manager in Gazebo has its own hardware class:
+    ``gazebo_ros2_control/GazeboSystem`` for gazebo_ros2_control, ``gz_ros2_control/GazeboSimSystem`` for
+    gz_ros2_control, and ``ign_ros2_control/IgnitionSystem`` for ign_ros2_control. The rule reports the hardware class
+    of another plugin, and misspellings of these classes and of ``mock_components/GenericSystem``. Branches of
+    ``xacro:if`` that are not expanded are checked too. Other hardware is reported as a note if the robot has such a
+    plugin, because Gazebo does not control the joints of that hardware.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
     ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware. After Humble,

@@ -17,7 +17,8 @@ class TwoDrivers(RobotRule):
     read joints.
 
     ## Why is this bad?
-    The controller and the plugin both set the joint in every step, so the joint jerks or follows whichever runs last.
+    The controller and the plugin both set the joint in every step, so the joint jerks or follows the last command of
+    each step.
 
     ## Example
     ```diff

@@ -21,8 +21,8 @@ class BadNumber(RobotRule):
     """A numeric value cannot be parsed.
 
     ## What it does
-    Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …). Commas
-    between numbers, trailing units and expressions that were never evaluated cannot be parsed. Also checks contact
+    Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …). Common
+    causes are commas between numbers, trailing units, and expressions that were never evaluated. Also checks contact
     parameters, gravity and self-collision of links in ``<gazebo>``.
 
     ## Why is this bad?

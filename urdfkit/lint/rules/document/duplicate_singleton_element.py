@@ -12,9 +12,9 @@ class DuplicateSingletonElement(RobotRule):
 
     ## What it does
     Checks for a second ``<inertial>``, ``<mass>``, ``<inertia>``, ``<origin>``, ``<geometry>``, ``<axis>``, ``<limit>``
-    … in the same element, and for a plugin parameter that is given twice with different values although the plugin
-    reads only one. A second plugin parameter is reported as a warning, because no reader rejects it. A second material
-    is reported as a note, because it changes only a colour.
+    … in the same element. A second material is reported as a note, because it changes only a colour. Also checks for a
+    plugin parameter that occurs twice with different values although the plugin reads only one. This is reported as a
+    warning, because no reader rejects the robot.
 
     ## Why is this bad?
     Readers differ: urdfdom and Gazebo use the first element, others the last, and MuJoCo rejects the file ("repeated

@@ -22,7 +22,8 @@ class RequiredMissing(RobotRule):
     the value of a mass, a complete inertia tensor, the parent and child of a joint, and names.
 
     ## Why is this bad?
-    check_urdf only warns about some of them and drops the geometry or the inertia; other readers reject the robot.
+    check_urdf only warns about some missing parts, and drops the geometry or the inertia. Other readers reject the
+    robot.
 
     ## Example
     ```diff

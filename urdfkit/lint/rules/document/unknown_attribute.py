@@ -29,9 +29,9 @@ class UnknownAttribute(RobotRule):
     """An element has an unknown attribute.
 
     ## What it does
-    Checks the attributes of links, joints and their children. Attributes with a prefix are accepted as extensions. An
-    attribute that is neither misspelt nor an attribute of another URDF element is reported as a note, because it may be
-    an extension.
+    Checks the attributes of links, joints and their children. Attributes with a namespace prefix are accepted as
+    extensions. An attribute that is neither misspelt nor an attribute of another URDF element is reported as a note,
+    because it may be an extension.
 
     ## Why is this bad?
     Readers ignore the attribute silently: ``rpy`` does not rotate an axis, and a misspelt ``efort`` limits nothing.

@@ -29,13 +29,13 @@ class UnknownElement(RobotRule):
 
     ## What it does
     Checks the children of ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix are accepted as extensions, except in place of the shape of a ``<geometry>``, where they are
-    reported as notes. An element that resembles no URDF or SDF element is reported as a note, because another program
-    probably reads it.
+    Elements with a namespace prefix are accepted as extensions. If such an element replaces the shape in a
+    ``<geometry>``, it is reported as a note. An element that resembles no URDF or SDF element is reported as a note,
+    because another program probably reads it.
 
-    The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
-    their name nearly matches ``link``, ``joint`` or another known element. The same applies to ``<transmission>`` and
-    ``<ros2_control>``.
+    The root element must be ``<robot>``. Because ``<robot>`` may contain extensions of any name, its children are
+    reported only if their names nearly match ``link``, ``joint`` or another known element. The same applies to
+    ``<transmission>`` and ``<ros2_control>``.
 
     ## Why is this bad?
     Readers ignore the element silently. A typing error, or a macro call without its prefix, removes wheels, damping or
@@ -56,8 +56,8 @@ class UnknownElement(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix renames the element to the nearest known name, or to its current name if it is obsolete. No fix is
-    offered for macro calls.
+    Unsafe: the fix renames the element to the nearest known name. It renames an obsolete element to the name that
+    replaced it. No fix is offered for macro calls.
     """
 
     code = "E008"

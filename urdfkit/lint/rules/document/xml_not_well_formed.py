@@ -30,8 +30,8 @@ class XmlNotWellFormed(FaultRule):
     ```
 
     ## Fix safety
-    Safe where the fix deletes white space before ``<?xml``. Unsafe where it closes an unclosed root element at the end
-    of the file, because more may be missing.
+    Safe if the fix deletes white space before ``<?xml``. Unsafe if the fix closes an unclosed root element at the end
+    of the file, because more of the file may be missing.
     """
 
     code = "E001"

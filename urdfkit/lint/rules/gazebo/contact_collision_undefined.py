@@ -17,7 +17,7 @@ class ContactCollisionUndefined(RobotRule):
     prefix ``PARENT_fixed_joint_lump__``, which Gazebo adds to the collisions of links on fixed joints, is accepted.
 
     ## Why is this bad?
-    Gazebo reports no contacts for an unknown collision, and no error: the bumper never triggers.
+    Gazebo reports neither contacts nor an error for an unknown collision, so the bumper never triggers.
 
     ## Example
     ```diff

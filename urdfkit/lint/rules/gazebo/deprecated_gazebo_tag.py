@@ -27,7 +27,7 @@ class DeprecatedGazeboTag(RobotRule):
     ```
 
     ## Fix safety
-    Safe: sdformat reads both elements alike.
+    Safe: sdformat treats ``<cfmDamping>`` and ``<implicitSpringDamper>`` alike.
     """
 
     code = "Z816"

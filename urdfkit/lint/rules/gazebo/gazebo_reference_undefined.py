@@ -15,7 +15,7 @@ class GazeboReferenceUndefined(RobotRule):
     ## What it does
     Compares the reference of each ``<gazebo>`` block with the links and joints of the robot. The finding is an error if
     the name is misspelt or if the block contains a sensor or a plugin. Otherwise the block is probably a leftover, and
-    the finding is a warning. Sensors in a block without reference are reported as errors. A ``force_torque`` sensor
+    the finding is a warning. Sensors in a block without a reference are reported as errors. A ``force_torque`` sensor
     belongs in the block of a joint, and other sensors belong in the block of a link; a sensor in the wrong kind of
     block is reported as a warning.
 

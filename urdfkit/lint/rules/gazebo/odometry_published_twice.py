@@ -11,7 +11,8 @@ class OdometryPublishedTwice(RobotRule):
     or a related package configures a filter of robot_localization that publishes the transform from the odometry frame.
 
     ## Why is this bad?
-    Two nodes publish different poses of the same frame, so the robot jumps between these poses on the map.
+    The drive and the filter publish different poses of the same frame, so the robot jumps between these poses on the
+    map.
 
     ## Example
     ```diff

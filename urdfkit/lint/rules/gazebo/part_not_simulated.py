@@ -12,7 +12,7 @@ class PartNotSimulated(RobotRule):
 
     ## Why is this bad?
     The simulation runs without the part, or rejects the robot with ``--strict``. The part may work in Gazebo or on the
-    real robot, so it is reported only for this target.
+    real robot, so the rule applies only to this target.
 
     ## Example
     ```diff

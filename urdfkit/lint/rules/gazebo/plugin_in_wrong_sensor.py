@@ -16,7 +16,7 @@ class PluginInWrongSensor(RobotRule):
     `libgazebo_ros_gpu_laser.so`, for example, must be in a sensor of type `gpu_ray`.
 
     ## Why is this bad?
-    Gazebo Classic stops loading the plugin, and nothing is published.
+    Gazebo Classic stops loading the plugin, so the plugin publishes no data.
 
     ## Example
     ```diff

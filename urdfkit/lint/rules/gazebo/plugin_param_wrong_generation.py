@@ -11,7 +11,7 @@ class PluginParamWrongGeneration(RobotRule):
     """A plugin parameter has the spelling of another generation of the plugin.
 
     ## What it does
-    ROS 1 spells parameters in camelCase, ROS 2 and Gazebo Sim in snake_case, and some parameters have changed their
+    ROS 1 spells parameters in camelCase; ROS 2 and Gazebo Sim use snake_case. Some parameters have also changed their
     meaning. The rule reports parameters that only another generation of the plugin reads. The target determines the
     generation. Without a target, the rule assumes the generation that reads most parameters of the plugin.
 

@@ -23,12 +23,12 @@ class PluginParameterMissing(RobotRule):
     """A plugin lacks a required parameter.
 
     ## What it does
-    Checks ``libgazebo_ros_imu.so`` of ROS 1 and ``libgazebo_ros_p3d.so`` for a missing link to measure, and
-    ``libgazebo_ros_p3d.so`` of ROS 1 also for a missing topic. Checks the drives and joint controllers of Gazebo Sim
-    for missing joints, and differential drives for unequal numbers of left and right wheels.
+    Checks that ``libgazebo_ros_imu.so`` of ROS 1 and ``libgazebo_ros_p3d.so`` name the link that they measure, and that
+    ``libgazebo_ros_p3d.so`` of ROS 1 also names a topic. Checks the drives and joint controllers of Gazebo Sim for
+    missing joints, and differential drives for unequal numbers of left and right wheels.
 
     ## Why is this bad?
-    The plugin logs a single message at start-up and does nothing.
+    The plugin logs a single message when the simulator starts, and does nothing afterwards.
 
     ## Example
     ```diff

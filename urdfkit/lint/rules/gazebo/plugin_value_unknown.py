@@ -14,10 +14,10 @@ class PluginValueUnknown(RobotRule):
     """A Gazebo plugin has a parameter with an invalid value.
 
     ## What it does
-    Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers,
-    divisors that are negative or zero, vectors of the wrong length, and flags that are neither true nor false.
-    Checks ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form
-    ``from:=to``. Checks ``<robotSimType>`` for misspelt names.
+    Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers, divisors
+    that are negative or zero, vectors of the wrong length, and flags that are neither true nor false. Also checks the
+    ``<output_type>`` of the ray sensor plugin of gazebo_ros, the form ``from:=to`` of each ``<remapping>``, and the
+    spelling of ``<robotSimType>``.
 
     ## Why is this bad?
     The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation

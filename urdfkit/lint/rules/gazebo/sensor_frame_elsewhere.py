@@ -26,7 +26,7 @@ class SensorFrameElsewhere(RobotRule):
     test with 200 robots from public repositories, no robot had such a sensor.
 
     ## Why is this bad?
-    All data are shifted, so obstacles and walls appear in the wrong place on the map.
+    All measurements are shifted, so obstacles and walls appear in the wrong place on the map.
 
     ## Example
     ```diff

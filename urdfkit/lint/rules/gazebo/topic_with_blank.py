@@ -34,8 +34,8 @@ class TopicWithBlank(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: other programs may use the topic name. The fix removes white space next to slashes and replaces any other
-    with an underscore.
+    Unsafe: other programs may use the topic name. The fix removes white space at the ends and next to slashes, and
+    replaces other white space with an underscore.
     """
 
     code = "Z830"

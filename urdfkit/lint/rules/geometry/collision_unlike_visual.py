@@ -42,7 +42,7 @@ class CollisionUnlikeVisual(RobotRule):
     - cylinders and boxes with the same dimensions in another order
     - a single collision shape that is at least three times larger or smaller than the visual shape of the same kind, in
       all directions or, for a box, in two of them
-    - a size with a wrong decimal point in one direction
+    - shapes of which one dimension has a wrong decimal point
     - wheels whose visual and collision radius differ
 
     ## Why is this bad?

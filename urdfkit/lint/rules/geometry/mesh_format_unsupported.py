@@ -17,7 +17,7 @@ class MeshFormatUnsupported(RobotRule):
 
     ## What it does
     Checks the suffix of mesh files. Without ``--target``, STL, COLLADA, OBJ, glTF and PLY are accepted. MuJoCo reads
-    only STL, OBJ and MSH, Gazebo Classic only STL, COLLADA and OBJ.
+    only STL, OBJ and MSH; Gazebo Classic reads only STL, COLLADA and OBJ.
 
     ## Why is this bad?
     The mesh is not shown, or the model is rejected.

@@ -28,8 +28,8 @@ class NonpositivePrimitive(RobotRule):
     mujoco``, both are reported as errors.
 
     ## Why is this bad?
-    MuJoCo and physics engines reject the shape ("size must be positive"); elsewhere it is invisible and does not
-    collide.
+    MuJoCo and other physics engines reject the shape ("size must be positive"). In other tools, the shape is invisible
+    and does not collide.
 
     ## Example
     ```diff

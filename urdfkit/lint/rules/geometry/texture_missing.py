@@ -17,8 +17,8 @@ class TextureMissing(RobotRule):
     path relative to the mesh, next to the mesh, and in ``materials/textures`` next to the folder of the mesh.
 
     ## Why is this bad?
-    Viewers and camera images show the shape in one colour, often white or black, and usually without a message. The
-    image is usually missing because only the mesh was copied or committed.
+    Viewers and camera images show the shape in one colour, often white or black, and usually without a message. Usually
+    only the mesh was copied or committed, without its image.
 
     ## Example
     ```diff

@@ -15,8 +15,8 @@ class WheelOffItsAxis(RobotRule):
     has the same offset, because the link is probably a swivel caster.
 
     ## Why is this bad?
-    The wheel orbits its axis instead of rolling. The usual cause is an origin that was copied from another link; the
-    offset belongs to the joint.
+    The wheel orbits its axis instead of rolling. The usual cause is an origin that was copied from another link. The
+    offset of a wheel belongs to the ``<origin>`` of its joint.
 
     ## Example
     ```diff

@@ -26,8 +26,8 @@ class InertiaTooSmall(RobotRule):
 
     ## What it does
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of the link's
-    shapes. Reports a radius below a twentieth of that distance: nearly all the mass would be concentrated in one point.
-    A link that is fixed to a body with more than twenty times its mass and inertia is reported as a note.
+    shapes. Reports a radius below a twentieth of that distance, because nearly all the mass would then be concentrated
+    in one point. A link that is fixed to a body with more than twenty times its mass and inertia is reported as a note.
 
     ## Why is this bad?
     Light parts on strong joints make simulations jitter, and the integrator needs tiny steps.

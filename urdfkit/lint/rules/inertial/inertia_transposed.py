@@ -14,8 +14,8 @@ class InertiaTransposed(RobotRule):
     is physically possible in exactly one of these orders.
 
     ## Why is this bad?
-    URDF expects ixx, ixy, ixz, iyy, iyz, izz. A moment in the place of a product makes the tensor impossible: MuJoCo
-    and sdformat reject the tensor, and other simulators compute a wrong motion.
+    URDF expects ixx, ixy, ixz, iyy, iyz, izz. If a moment is in the place of a product, the tensor is physically
+    impossible. MuJoCo and sdformat then reject it, and other simulators compute a wrong motion.
 
     ## Example
     ```diff

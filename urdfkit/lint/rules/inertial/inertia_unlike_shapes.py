@@ -30,7 +30,7 @@ _SMALL = 0.02
 
 
 class InertiaUnlikeShapes(RobotRule):
-    """The moments of inertia of a link are not those of its shapes, unlike those of all other links.
+    """The moments of inertia of a single link do not match its shapes.
 
     ## What it does
     Compares ixx, iyy and izz of each link with the moments of its box, cylinder or sphere at uniform density. Reports

@@ -19,10 +19,10 @@ class MassVsVolume(RobotRule):
     """The density of a link is implausible.
 
     ## What it does
-    Divides the mass by the volume of the link's shapes. Reports less than 1 kg/m³ (air) for the smaller of the visual
-    and collision volumes, and more than 25000 kg/m³ (the heaviest metals have 22600 kg/m³) for the larger one. Three
-    kinds of links are not checked: links of at most 10 g, because their mass is usually a placeholder; links with
-    meshes; and light shapes of more than 20 m, such as a ground plane.
+    Divides the mass by the volume of the link's shapes. Reports a density below 1 kg/m³ (air) for the smaller of the
+    visual and collision volumes, and a density above 25000 kg/m³ (the heaviest metals have 22600 kg/m³) for the larger
+    volume. Three kinds of links are not checked: links of at most 10 g, because their mass is usually a placeholder;
+    links with meshes; and light shapes of more than 20 m, such as a ground plane.
 
     ## Why is this bad?
     Usually the mass was written in grams instead of kilograms, or the size in millimetres instead of metres.

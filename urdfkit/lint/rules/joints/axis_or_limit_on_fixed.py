@@ -13,7 +13,7 @@ class AxisOrLimitOnFixed(RobotRule):
     exporters write it.
 
     ## Why is this bad?
-    The elements have no effect. They may also indicate that the joint type is wrong.
+    The elements have no effect, and may indicate that the joint type is wrong.
 
     ## Example
     ```diff

@@ -19,7 +19,7 @@ class LimitEqual(RobotRule):
 
     ## Why is this bad?
     The joint cannot move. Usually the limits were not set. If the joint is meant to be rigid, the type ``fixed`` states
-    this and saves solvers a constraint.
+    this intent, and solvers need no constraint for it.
 
     ## Example
     ```diff

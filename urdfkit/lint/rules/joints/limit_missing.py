@@ -10,8 +10,8 @@ class LimitMissing(RobotRule):
     Checks for ``revolute`` and ``prismatic`` joints without ``<limit>``.
 
     ## Why is this bad?
-    These types require a limit: without it urdfdom rejects the robot. A joint that turns without limits has the type
-    ``continuous``.
+    These types require a limit: without it, urdfdom rejects the robot. Use the type ``continuous`` for a joint that
+    turns without limits.
 
     ## Example
     ```diff

@@ -17,8 +17,8 @@ class LimitsInDegrees(RobotRule):
 
     ## What it does
     Checks the limits of ``revolute`` joints for multiples of 0.5 that are greater than two turns (4π) and at most 360.
-    Also reports limits that are already in radians before an expression such as ``radians(1.57)`` converts them. The
-    rule assumes this if both limits are below 6.3° and the larger one is not a multiple of half a degree.
+    Also reports limits that an expression such as ``radians(1.57)`` converts although they are already in radians. The
+    rule assumes this if both converted limits are below 6.3° and the larger one is not a multiple of half a degree.
 
     ## Why is this bad?
     Limits are in radians: a limit of 90 rad allows more than fourteen turns. No tool reports an error, and the joint

@@ -19,7 +19,7 @@ class NegativeEffortOrVelocity(RobotRule):
     ## What it does
     Checks for negative ``effort`` and ``velocity`` values in ``<limit>`` and, since URDF 1.2, for negative
     ``acceleration``, ``deceleration`` and ``jerk`` values. A limit of -1 at every joint is reported as a note, because
-    exporters write -1 for "no limit", and Gazebo reads it in this way.
+    exporters write -1 for "no limit", and Gazebo interprets -1 in the same way.
 
     ## Why is this bad?
     These limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.

@@ -15,8 +15,8 @@ class SafetyControllerInconsistent(RobotRule):
 
     ## Why is this bad?
     urdfdom rejects a joint without ``k_velocity``. A soft limit outside the hard limits never acts, so the joint
-    reaches its end stop at full speed. If the lower soft limit is greater than the upper one, both act at the same
-    time.
+    reaches its end stop at full speed. If the lower soft limit is greater than the upper one, both limits act at the
+    same time.
 
     ## Example
     ```diff

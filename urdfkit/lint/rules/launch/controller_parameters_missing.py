@@ -26,7 +26,7 @@ class ControllerParametersMissing(RobotRule):
     In ROS 1, compares the controllers that the launch files spawn with the YAML files that define them. A launch file
     must load the YAML file into the namespace of the spawner; K960 reports a wrong namespace if the same launch file
     starts the spawner. MoveIt's simple controller manager needs a file with ``controller_list``. In ROS 2,
-    ``ros2_control_node`` needs parameters unless the spawners pass them.
+    ``ros2_control_node`` needs the parameters unless the spawners pass them.
 
     ## Why is this bad?
     The spawner fails, because the controller has no type, and the robot does not move.

@@ -14,7 +14,7 @@ class ExitHandlerNeverRuns(RobotRule):
     ``ros2_control_node`` or ``robot_state_publisher``.
 
     ## Why is this bad?
-    The nodes of the handler never start, and no error is reported. For example, no controllers are loaded.
+    The nodes of the handler, such as the spawners of controllers, never start, and launch reports no error.
 
     ## Example
     ```diff title="robot.launch.py"

@@ -25,12 +25,12 @@ class LaunchActionUnused(RobotRule):
 
     ## What it does
     Checks the variables of Python launch files that hold a node, an argument, an include or another action, or a list
-    of these. An action that is only the target of an event handler is also reported, because it is not started either.
-    A variable that a comment mentions is not checked, because its action is probably disabled on purpose. Attributes of
-    classes are not checked, because code can collect the actions stored in them.
+    of these. An action that is only the target of an event handler is also reported, because the handler does not start
+    its target. A variable that a comment mentions is not checked, because its action is probably disabled on purpose.
+    Attributes of classes are not checked, because code can collect the actions stored in them.
 
     ## Why is this bad?
-    The node is not started, or the argument is not declared. There is no error message.
+    The node does not start, or the argument is not declared, and launch prints no error message.
 
     ## Example
     ```diff title="robot.launch.py"

@@ -13,7 +13,8 @@ class LaunchArgumentRefused(RobotRule):
     with several values, and its default is one of them, other passed values are reported too.
 
     ## Why is this bad?
-    The launch stops: "provided value is not valid". A comparison with another value is never true.
+    The launch stops with "provided value is not valid". A comparison with a value that is not one of the choices is
+    never true.
 
     ## Example
     ```diff title="robot.launch.py"

@@ -13,7 +13,7 @@ class LaunchConditionInverted(RobotRule):
 
     The name of an argument may state that it enables a node, include or group, as ``use_rviz`` enables ``rviz2``. The
     rule reports such an action if it starts when the argument is false, unless the file starts another such action when
-    the argument is true. The reverse holds for arguments such as ``headless`` and ``disable_rviz``.
+    the argument is true. For arguments such as ``headless`` and ``disable_rviz``, the rule expects the reverse.
 
     ## Why is this bad?
     Drivers start without their devices, the robot starts without its drivers, and the argument does the opposite of

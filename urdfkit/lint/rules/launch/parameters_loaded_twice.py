@@ -13,8 +13,8 @@ class ParametersLoadedTwice(RobotRule):
     Compares the ``<rosparam>`` elements without a condition in a node, a group or the whole file.
 
     ## Why is this bad?
-    The second load has no effect. Usually the second load was intended for another namespace, such as the namespace of
-    the other costmap, which then has no parameters.
+    The second load has no effect. Usually the second load was intended for another namespace, such as that of the other
+    costmap. That namespace then has no parameters.
 
     ## Example
     ```diff

@@ -16,8 +16,9 @@ class PythonLaunchNameUndefined(RobotRule):
 
     ## What it does
     Compares the names that a launch file uses with the names that it imports or defines anywhere, and with the built-in
-    names of Python. Files with ``from ... import *`` are not checked. The function ``generate_launch_description`` must
-    have this name and must return a value, and the function of an OpaqueFunction must return the list of its actions.
+    names of Python. Files with ``from ... import *`` are not checked. A launch file must define a function with the
+    exact name ``generate_launch_description``, which must return a value. The function of an OpaqueFunction must return
+    the list of its actions.
 
     ## Why is this bad?
     The launch file stops with an error before it starts a node.

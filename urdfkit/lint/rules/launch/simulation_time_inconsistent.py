@@ -21,7 +21,7 @@ class SimulationTimeInconsistent(RobotRule):
     Parameter files are read too. Launch files that set the parameter for all nodes are not checked.
 
     ## Why is this bad?
-    The node compares simulation time with system time. It waits for transforms, or drops every message as too old.
+    The node compares simulation time with system time, so it waits for transforms, or drops every message as too old.
 
     ## Example
     ```diff title="robot.launch.py"

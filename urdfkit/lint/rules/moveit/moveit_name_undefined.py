@@ -27,8 +27,8 @@ class MoveitNameUndefined(RobotRule):
     packages have one SRDF.
 
     ## Why is this bad?
-    MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It does not execute a
-    trajectory for joints without a controller.
+    MoveIt ignores settings of unknown groups and joints, and logs "No kinematics plugins defined". It does not execute
+    a trajectory for joints without a controller.
 
     ## Example
     ```diff

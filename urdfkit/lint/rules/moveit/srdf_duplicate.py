@@ -20,7 +20,7 @@ class SrdfDuplicate(RobotRule):
     as a warning.
 
     ## Why is this bad?
-    MoveIt uses one of the definitions: "A group named 'arm' already exists. Not adding."
+    MoveIt uses only one of the definitions, and logs "A group named 'arm' already exists. Not adding."
 
     ## Example
     ```diff

@@ -13,7 +13,7 @@ _REASONS = ("Never", "Default", "Adjacent", "Always", "User")
 
 
 class SrdfElementUnknown(RobotRule):
-    """An SRDF has a misspelt element, a misspelt or missing attribute, an empty group, or a wrong reason.
+    """An SRDF has a misspelt element, a misspelt or missing attribute, an empty group, or a wrong ``reason``.
 
     ## What it does
     Compares elements and attributes with the names that srdfdom reads. Elements of other programs are accepted unless

@@ -26,7 +26,7 @@ class SrdfGroupInconsistent(RobotRule):
       ``map`` if the robot has drive wheels
 
     ## Why is this bad?
-    The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.
+    The group lacks its joints, so planning fails. MoveIt skips a virtual joint whose child is not the root link.
 
     ## Example
     ```diff

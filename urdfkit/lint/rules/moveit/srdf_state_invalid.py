@@ -28,8 +28,8 @@ class SrdfStateInvalid(RobotRule):
 
     ## What it does
     Compares the values of each ``<group_state>`` with the limits and types of the joints, and its joints with the
-    active joints of its group. If a group has several states, and all of them set a joint that the group lacks, or all
-    of them lack a joint of the group, the group is reported. A value that MoveIt cannot use is reported as an error.
+    active joints of its group. If a group has several states, and all of them set a joint that is not in the group, or
+    omit a joint of the group, the finding is at the group. A value that MoveIt cannot use is reported as an error.
 
     ## Why is this bad?
     MoveIt rejects a goal beyond the limits, and ignores values for joints of other groups.

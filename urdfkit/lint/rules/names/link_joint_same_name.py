@@ -10,7 +10,7 @@ class LinkJointSameName(RobotRule):
 
     ## What it does
     Checks for joints that have the name of a link. Without a target, the finding is a note if the robot has no plugins
-    or sensors of Gazebo, because it may never be converted to SDF.
+    or sensors of Gazebo, because such a robot may never be converted to SDF.
 
     ## Why is this bad?
     URDF allows this, but in SDF links and joints share one namespace. Gazebo rejects the model ("non-unique name") or

@@ -49,7 +49,8 @@ class BridgeMisspelt(RobotRule):
     - a missing bridge for the clock or the joint states, if nodes need them
 
     ## Why is this bad?
-    The bridge logs "No template specialization for the pair", or waits silently for a topic that does not exist.
+    The bridge logs "No template specialization for the pair", or waits for a topic that does not exist and logs
+    nothing.
 
     ## Example
     ```diff

@@ -23,9 +23,9 @@ class ControllerContradictsWheels(RobotRule):
     ``wheelbase`` and tracks of steering controllers in YAML with the joints and shapes of the wheels. Also checks the
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
     accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
-    robot turns. With a ``wheel_separation_multiplier``, such a separation is reported, because the multiplier already
-    compensates for the slip. Wheels with meshes are not measured. A left and a right wheel at the same place are
-    reported.
+    robot turns. If the controller has a ``wheel_separation_multiplier``, the larger separation is reported, because the
+    multiplier already compensates for the slip. The rule does not measure wheels with meshes. A left and a right wheel
+    at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 

@@ -24,7 +24,7 @@ class ControllerJointForeign(RobotRule):
     the controller that reads them.
 
     ## Why is this bad?
-    The values have no effect, and the intended joint has the default gains or tolerances.
+    The values have no effect, and the controller uses the default gains or tolerances for the intended joint.
 
     ## Example
     ```diff

@@ -39,8 +39,8 @@ class ControllerSettingsMisspelt(RobotRule):
     controller are reported as notes.
 
     ## Why is this bad?
-    Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
-    keys are silently ignored. YAML with tabs is rejected.
+    The controller fails to load with "Loader for controller not found", or starts without its joints, because ROS
+    ignores unknown keys. A YAML parser rejects a file with tabs.
 
     ## Example
     ```diff

@@ -65,7 +65,7 @@ class CostmapContradictsRobot(RobotRule):
     a range of slam_toolbox or gmapping far beyond the range of the scanner.
 
     ## Why is this bad?
-    Navigation plans paths that are too narrow for the robot, or finds none.
+    Navigation plans paths that are too narrow for the robot, or finds no path.
 
     ## Example
     ```diff

@@ -14,7 +14,7 @@ class FilterInconsistent(RobotRule):
     - two inputs with the same topic, and values that the messages of an input do not contain
     - an absolute position from drifting odometry next to another absolute position
     - a filter in the map frame without an absolute position
-    - inputs of which none fuses the place or the velocity along an axis, also y if the base can move sideways
+    - an axis along which no input provides the position or the velocity; y counts if the base can move sideways
     - position and velocity of the same odometry, so that the filter uses its data twice
     - a rate that is too low for the ``transform_tolerance`` of costmaps, controller and behavior servers and collision
       monitors
@@ -23,7 +23,7 @@ class FilterInconsistent(RobotRule):
     drive controllers disable it.
 
     ## Why is this bad?
-    The estimated pose jumps between two sources or drifts without bound. In other cases a link has two parents in the
+    The estimated pose jumps between two sources, or drifts without bound. In other cases, a link has two parents in the
     TF tree, or the tree is not connected.
 
     ## Example

@@ -10,8 +10,8 @@ class FrameInconsistent(RobotRule):
     Compares ``odom_frame``, ``odom_frame_id``, ``local_frame``, ``map_frame``, ``global_frame_id`` and ``global_frame``
     in YAML with each other and with the odometry frames of plugins. Reports a frame other than ``map`` and ``odom`` if
     another node uses a different frame and the name occurs nowhere else in the files and code of these packages. Also
-    reports a node whose two frames are equal. Controllers of differential drives are reported if their base frame is
-    not the root link, because this link then has two parents.
+    reports a node whose map frame and odometry frame are equal. Controllers of differential drives are reported if
+    their base frame is not the root link, because this frame then has two parents.
 
     ## Why is this bad?
     The node waits for a transform that no node publishes, or publishes a transform that no other node uses.

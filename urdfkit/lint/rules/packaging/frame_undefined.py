@@ -38,9 +38,9 @@ class FrameUndefined(RobotRule):
     Checks these parameters in the YAML files of the robot's package and of neighbouring packages that depend on it:
 
     - ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, also in launch files
-    - for arms, ``base_link``, ``root_link``, ``tip_link`` and ``ee_link``
+    - ``base_link``, ``root_link``, ``tip_link`` and ``ee_link`` of arms
     - ``frame_id`` and ``sensor_frame``, if the name differs from a link by one letter
-    - in launch files, the frames of well-known drivers of sensors
+    - the frames of well-known sensor drivers in launch files
     - the frame of the octomap of MoveIt, which another file must name
 
     The rule reports misspelt link names, unless another description in these packages defines a link of that name.

@@ -15,9 +15,9 @@ class JointWithoutController(RobotRule):
 
     ## What it does
     Compares the command interfaces of ``<ros2_control>`` with the ROS 2 controllers in YAML. Reports a joint with a
-    command interface if no other file names this joint, and if it is the only such joint. A
-    ``JointTrajectoryController`` or a group controller must move two or more other joints of the same branch of the
-    robot.
+    command interface if no other file names this joint, and if the robot has no second joint of this kind. A joint is
+    reported only if a ``JointTrajectoryController`` or a group controller moves at least two other joints of the same
+    branch of the robot.
 
     ## Why is this bad?
     The joint keeps its position, and MoveIt plans that move it fail.

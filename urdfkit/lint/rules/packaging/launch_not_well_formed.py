@@ -9,7 +9,7 @@ class LaunchNotWellFormed(RobotRule):
 
     ## What it does
     Parses the XML and Python launch files of the robot's package and of neighbouring packages that depend on it, and
-    their package.xml. Nothing is executed.
+    their package.xml. The rule executes none of these files.
 
     ## Why is this bad?
     The launch fails with "Invalid roslaunch XML syntax" or a SyntaxError. A package with a malformed package.xml cannot

@@ -17,13 +17,14 @@ class LaunchPathMissing(RobotRule):
     Checks the launch files of the robot's package and of neighbouring packages that depend on it. The rule resolves
     paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. A path that
     contains a launch argument is checked with the default of the argument, each of its choices, and each value that an
-    including launch file passes. Python launch files are parsed, not executed, so computed paths are not checked, nor
-    are paths that are only tested for existence. Gazebo Classic needs the path of its world, not only the name.
+    including launch file passes. Python launch files are parsed, not executed, so computed paths are not checked. Paths
+    that a launch file only tests for existence are not checked either. Gazebo Classic needs the path of its world, not
+    only the name.
 
     Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. Maps,
-    recordings and files that git ignores are created by users and programs. They are reported only if a file with a
-    similar name exists. Missing folders and RViz configurations are reported as warnings, because the launch continues
-    without them.
+    recordings and files that git ignores are created by users and programs. A missing file of these kinds is reported
+    only if a file with a similar name exists. Missing folders and RViz configurations are reported as warnings, because
+    the launch continues without them.
 
     ## Why is this bad?
     The launch fails, or starts without the robot, the world or the parameters.

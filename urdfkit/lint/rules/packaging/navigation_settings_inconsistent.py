@@ -19,13 +19,14 @@ class NavigationSettingsInconsistent(RobotRule):
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
     - a controller speed of more than twice the limit of the velocity smoother
     - a linear speed that exceeds the velocity limit of a wheel joint
-    - motion models and speeds that assume or exclude sideways motion, in contradiction to the drive of the robot
+    - motion models and speeds that assume sideways motion of a robot whose drive excludes it, or exclude sideways
+      motion that the drive allows
     - plugin names of different releases in one file, and plugins with the parameters of another plugin
     - a time step of the MPPI controller that is shorter than the period of its server
 
     ## Why is this bad?
     The robot drives into obstacles that are not inflated, leaves its local costmap, or uses the default parameters of
-    the planner. In other cases a server does not start or waits for a topic.
+    the planner. In other cases, a server does not start, or waits for a topic forever.
 
     ## Example
     ```diff

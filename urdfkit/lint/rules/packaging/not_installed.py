@@ -14,8 +14,9 @@ class NotInstalled(RobotRule):
 
     ## What it does
     Checks ``package://…`` and ``$(find …)`` references for existing folders of the robot's own package that neither
-    CMakeLists.txt nor setup.py mentions. The finding is reported at the first ``install(DIRECTORY …)`` if there is one.
-    For a catkin package it is a note, because files that are not installed are still found in the devel space.
+    CMakeLists.txt nor setup.py mentions. The finding is at the first ``install(DIRECTORY …)`` of the package, if one
+    exists. For a catkin package, the finding is a note, because the devel space also contains files that are not
+    installed.
 
     ## Why is this bad?
     After installation, the share folder of the package lacks these meshes or included files.

@@ -55,8 +55,8 @@ class PackageXmlDependency(RobotRule):
     Compares these packages with the dependencies in package.xml:
 
     - packages that the files of the robot's package use in ``$(find …)`` and ``package://…``
-    - packages that launch files start, include or import, and ``xacro`` if they call it, with the dependencies of their
-      own package
+    - packages that launch files start, include or import, and ``xacro`` if they call it; these are compared with the
+      package.xml of the launch file's package
     - packages that the Python code of a package imports, except under a condition, and that its CMakeLists.txt finds
     - packages of the controllers in YAML, if any package of the robot depends on other controller packages
     - packages of the plugins of Nav2 and MoveIt, and of the Gazebo plugin that runs controllers, if the package starts
@@ -74,7 +74,7 @@ class PackageXmlDependency(RobotRule):
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
-    it. A misspelt package is not found anywhere.
+    it. A misspelt package does not exist on any machine.
 
     ## Example
     ```diff

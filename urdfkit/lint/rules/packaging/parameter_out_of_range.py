@@ -17,8 +17,8 @@ class ParameterOutOfRange(RobotRule):
 
     ## What it does
     Checks the parameters of controllers, Nav2, move_base, robot_localization, slam_toolbox, gmapping, amcl, twist_mux,
-    teleop nodes, maps and MoveIt, in YAML and in XML launch files. Each parameter has a plausible range, which is many
-    times wider than the values in the examples of its package. Values of zero and below are accepted, because they
+    teleop nodes, maps and MoveIt, in YAML and in XML launch files. The plausible range of each parameter is many times
+    wider than the range of values in the examples of its package. Values of zero and below are accepted, because they
     often disable a function.
 
     ## Why is this bad?

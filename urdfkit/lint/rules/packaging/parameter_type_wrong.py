@@ -8,13 +8,14 @@ class ParameterTypeWrong(RobotRule):
 
     ## What it does
     Compares the numbers in the parameters of ros2_controllers, Nav2 and robot_localization, and in the joint limits of
-    MoveIt 2, with the types that the nodes declare. For the nodes of the workspace, the defaults in their Python or C++
-    code determine the types; parameters in launch files are then compared too. Also checks lists of numbers in the
-    parameters of all ROS 2 nodes: the elements of a list must have one type.
+    MoveIt 2, with the types that the nodes declare. The types of the parameters of workspace nodes follow from the
+    defaults in their Python or C++ code. For these nodes, parameters in launch files are compared too. Also checks
+    lists of numbers in the parameters of all ROS 2 nodes: the elements of a list must have one type.
 
     ## Why is this bad?
-    rclcpp does not convert integers: the controller is not configured, "parameter 'constraints.goal_time' has invalid
-    type". rcl rejects a file with a list that contains both types: "Sequence should be of same type".
+    rclcpp does not convert integers to numbers with a decimal point. Therefore, the controller is not configured:
+    "parameter 'constraints.goal_time' has invalid type". rcl rejects a file with a list that contains both types:
+    "Sequence should be of same type".
 
     ## Example
     ```diff

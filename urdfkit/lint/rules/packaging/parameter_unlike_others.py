@@ -11,15 +11,16 @@ class ParameterUnlikeOthers(RobotRule):
 
     - keys and names that differ by a letter from those of at least half of the sections of the same shape
     - numbers and Booleans in quotes, if the other sections have them without quotes
-    - lists of numbers that are one value longer or shorter than all others, including the list of the opposite key,
-      such as the minimum for the maximum
-    - names in a list without a section, next to a section that the list does not name
+    - lists of numbers that are one value longer or shorter than all other lists, including the list of the opposite key
+      (for a list of minima, the list of maxima)
+    - names in a list that have no section, if the file also has a section that the list does not name
     - a name that occurs twice in a list of joints, plugins or controllers
     - misspelt joints and frames of the robot, and misspelt parameters, in the parameters of any node
     - negative rates and sizes, and minima above their maxima
 
-    Reads files with `ros__parameters`, files that launch files name, and files in configuration folders of packages.
-    Names that occur in the code of the workspace, and entries that a rule for their node reports, are left out.
+    The rule reads files with `ros__parameters`, files that launch files name, and files in configuration folders of
+    packages. It does not report names that occur in the code of the workspace, or entries that a rule for their node
+    already reports.
 
     ## Why is this bad?
     Nodes ignore unknown keys and use their defaults, and reject values of another type.

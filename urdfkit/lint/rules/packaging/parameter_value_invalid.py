@@ -34,11 +34,11 @@ class ParameterValueInvalid(RobotRule):
     - lists of joint positions that lack a value, and positions that exceed the limits of a joint because they are in
       degrees or millimetres
     - positions of a single joint, and ``initial_positions`` of MoveIt, beyond the limits
-    - lists of joints whose order differs from the order in a comment on their values
+    - lists of joints in a different order than the comment on their values states
     - minimum velocities above zero, and parameters with the indentation of a controller name
 
     ## Why is this bad?
-    The controller does not start, or the value is ignored. If a key occurs twice, only the last value applies.
+    The controller does not start, or ignores the value. If a key occurs twice, only the last value applies.
 
     ## Example
     ```diff

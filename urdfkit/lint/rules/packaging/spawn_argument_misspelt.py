@@ -62,7 +62,7 @@ class SpawnArgumentMisspelt(RobotRule):
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world. ``create``
-    ignores unknown options: a pose or a name has no effect.
+    ignores unknown options, so a pose or a name with a misspelt option has no effect.
 
     ## Example
     ```diff

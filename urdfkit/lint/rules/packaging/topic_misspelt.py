@@ -9,17 +9,17 @@ class TopicMisspelt(RobotRule):
 
     ## What it does
     Checks the topics in remappings, in parameters such as ``scan_topic``, ``odom_topic`` and ``odom0``, in arguments
-    and on the ROS side of bridges. They are compared with the topics of the robot's Gazebo plugins, sensors, bridges
-    and controllers, and with ``cmd_vel``, ``odom`` and ``scan``. A name is reported if it differs from exactly one of
-    these topics by one letter or by the order of two letters, and if it occurs nowhere else in the packages, including
-    their code and RViz files. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the robot publishes
-    ``scan`` and no other file or node names the topic of the node.
+    and on the ROS side of bridges. These topics are compared with the topics of the robot's Gazebo plugins, sensors,
+    bridges and controllers, and with ``cmd_vel``, ``odom`` and ``scan``. A name is reported if it differs from exactly
+    one of these topics by one letter or by the order of two letters, and if it occurs nowhere else in the packages,
+    including their code and RViz files. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the robot
+    publishes ``scan`` and no other file or node names the topic of the node.
 
     If the publishers of all nodes are known, also reports topics without a publisher although the robot publishes
     messages of the same type: remapped inputs of nodes in the packages, and ``gps/fix`` of ``navsat_transform_node``.
 
     ## Why is this bad?
-    The node waits for messages that never arrive, without an error.
+    The node waits for messages that never arrive, and reports no error.
 
     ## Example
     ```diff

@@ -15,10 +15,11 @@ class CameraFrameNotOptical(RobotRule):
     """The images of a camera are in the frame of its body, or the camera itself is in the optical frame.
 
     ## What it does
-    Checks ``optical_frame_id`` (if it is missing: ``gz_frame_id``) and the frames of camera plugins of Gazebo Classic.
-    The ``gz_frame_id`` of depth and logical cameras is not checked, because Gazebo also publishes points along x in it.
-    Reports a link that has a child with ``optical`` in its name on a fixed joint. Also reports a camera of Gazebo in an
-    optical frame, recognised by an x axis that points to the right of the parent link: Gazebo cameras look along x.
+    Checks ``optical_frame_id`` (or ``gz_frame_id`` if ``optical_frame_id`` is missing) and the frames of camera plugins
+    of Gazebo Classic. The ``gz_frame_id`` of depth and logical cameras is not checked, because Gazebo also publishes
+    points along x in this frame. Reports a link that has a child with ``optical`` in its name on a fixed joint. Also
+    reports a camera of Gazebo in an optical frame, recognised by an x axis that points to the right of the parent link:
+    Gazebo cameras look along x.
 
     ## Why is this bad?
     Images and depth are measured along the z axis of their frame. In the frame of the body, point clouds and markers

@@ -54,8 +54,9 @@ class CasterOffTheGround(RobotRule):
     the drive wheels. Any link is reported if it extends below the drive wheels by more than a twentieth of their
     radius. In robots without a Gazebo drive, each pair of a left and a right wheel counts as drive wheels.
 
-    Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a joint raises or
-    lowers, links that are not connected to the root link, and a floor below the robot are not checked.
+    The rule uses the collision shapes of a link, or its visual shapes if it has no collision shapes. It does not check
+    meshes, links that a joint raises or lowers, links that are not connected to the root link, or a floor below the
+    robot.
 
     ## Why is this bad?
     The robot tips onto its caster when the simulation starts, or its wheels lose contact with the ground: the robot

@@ -11,8 +11,8 @@ class DriveWheelWithoutFriction(RobotRule):
 
     ## What it does
     Checks ``mu``, ``mu1`` and ``mu2`` of the wheels of differential and skid-steer drives without ``fdir1``. Also
-    reports a wheel without coefficients if all other drive wheels have them, and mecanum wheels whose ``fdir1``, ``mu``
-    and ``mu2`` give friction across their rollers instead of along them. Casters are not checked.
+    reports a wheel without coefficients if all other drive wheels have coefficients, and mecanum wheels whose
+    ``fdir1``, ``mu`` and ``mu2`` give friction across their rollers instead of along them. Casters are not checked.
 
     ## Why is this bad?
     The wheel spins, and the robot does not move.

@@ -24,8 +24,8 @@ class FingersNotOpposed(RobotRule):
     Compares two ``prismatic`` joints of one parent link with ``finger``, ``grip``, ``jaw`` or ``claw`` in their names.
     The joints are compared if one mimics the other, or if their names differ only in a side, in the numbers 1 and 2, or
     in the letters a and b. Between their limits, the distance between the fingers must change, the fingers must not
-    pass through each other, and fingers of the same shape must not be in the same place. A missing mesh counts as a
-    point.
+    pass through each other, and fingers of the same shape must not be in the same place. The rule treats a missing mesh
+    as a point.
 
     ## Why is this bad?
     The gripper does not close. The usual cause is the sign of an axis, or of the multiplier of ``<mimic>``.

@@ -50,7 +50,8 @@ class JointContradictsName(RobotRule):
     - ``pan``, ``yaw``, ``slew`` and ``turntable`` joints rotate about a vertical axis; ``tilt``, ``pitch`` and ``knee``
       joints do not.
 
-    Hands, arms, wheels and rotors are not checked, because they may have any direction at zero.
+    Joints of hands, arms, wheels and rotors are not checked, because their axes may have any direction with all joints
+    at zero.
 
     A comment directly before the joint, or before its macro call, may state the direction of positive positions, such
     as ``positive is up``. A joint is reported if it moves the parts in the opposite direction.

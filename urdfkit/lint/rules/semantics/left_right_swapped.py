@@ -17,9 +17,9 @@ class LeftRightSwapped(RobotRule):
     ``diff_drive_controller`` without negative multipliers that a Gazebo plugin of the robot runs.
 
     ## Why is this bad?
-    The robot turns in the wrong direction. The drive plugin of Gazebo Classic up to ROS Indigo swaps the sides itself,
-    and so does that of ROS Kinetic unless ``legacyMode`` is false. A robot written for these versions turns in the
-    wrong direction from ROS Melodic on.
+    The robot turns in the wrong direction. Up to ROS Indigo, the drive plugin of Gazebo Classic itself swaps the sides.
+    The plugin of ROS Kinetic does the same unless ``legacyMode`` is false. A robot written for these versions turns in
+    the wrong direction from ROS Melodic on.
 
     ## Example
     ```diff

@@ -19,9 +19,9 @@ class OdometryFrameNotRoot(RobotRule):
     Reports Gazebo drives that publish the odometry transform of a link other than the root link.
 
     ## Why is this bad?
-    ``robot_state_publisher`` publishes another parent of the same frame. In TF, a frame has only one parent, and each
-    message replaces this parent. The parent alternates, and the links above the frame are not connected to the odometry
-    frame.
+    In TF, a frame has only one parent, and each message replaces this parent. Because ``robot_state_publisher``
+    publishes another parent of the same frame, the parent alternates. The links above the frame are not connected to
+    the odometry frame.
 
     ## Example
     ```diff

@@ -13,8 +13,8 @@ class ToolFrameInsideBody(RobotRule):
     points away from the fingers or the tool.
 
     ## Why is this bad?
-    The gripper collides with objects at the planned pose, and the camera sees the arm. Usually the offset was copied
-    from another link, or an angle has the wrong sign.
+    The gripper collides with objects at the planned pose, or the camera sees the arm instead of the object. Usually the
+    offset was copied from another link, or an angle has the wrong sign.
 
     ## Example
     ```diff

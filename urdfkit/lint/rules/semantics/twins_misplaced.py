@@ -40,7 +40,7 @@ class TwinsMisplaced(RobotRule):
     ``fl`` and ``fr``) or an end (``front`` and ``rear``). The coordinates of a left and a right part may differ only in
     one sign. The coordinates of a front and a rear part may differ only in one coordinate. Reports:
 
-    - a part of one side on the other side, together with its counterpart
+    - a part that is on the same side as its counterpart
     - counterparts in the same place, and coordinates that differ in a sign or a decimal point
     - moving joints that differ in a coordinate by more than a quarter of their distance from the parent, and wheels
       that differ by more than a twentieth
@@ -51,7 +51,8 @@ class TwinsMisplaced(RobotRule):
     - links of the two sides, except hands and cameras, that overlap with every joint at zero
 
     ## Why is this bad?
-    A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
+    Both wheels are on one side of the robot, or one of them is in the air. Usually a sign or a decimal point is
+    missing.
 
     ## Example
     ```diff

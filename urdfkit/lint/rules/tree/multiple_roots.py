@@ -8,8 +8,8 @@ class MultipleRoots(RobotRule):
     """More than one link has no parent.
 
     ## What it does
-    Checks for links without a parent other than the root of the largest tree. A link is not reported if a joint names
-    an undefined child link that is probably a misspelling of it; T202 reports that joint.
+    Checks for links without a parent other than the root of the largest tree. If a joint names an undefined child link
+    that is probably a misspelling of such a link, the link is not reported, because T202 reports the joint.
 
     ## Why is this bad?
     A robot is a single tree. urdfdom rejects a second root, robot_state_publisher cannot connect the frames, and MuJoCo

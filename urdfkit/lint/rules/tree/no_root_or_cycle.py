@@ -14,7 +14,7 @@ class NoRootOrCycle(RobotRule):
 
     ## Why is this bad?
     A URDF robot is a tree, and a loop has no root. check_urdf and Pinocchio reject a robot that consists only of a
-    loop, and silently drop a loop next to a tree. Some tools do not terminate.
+    loop, and silently drop a loop next to a tree. Some other tools never stop following the loop.
 
     ## Example
     ```diff

@@ -11,7 +11,7 @@ class RootLinkHasInertia(RobotRule):
 
     ## Why is this bad?
     robot_state_publisher logs a warning at every start, and dynamics computed with KDL ignore the mass. Simulators use
-    the mass, and a floating base requires it. Therefore, the finding is a note and is limited to ROS.
+    the mass, and a floating base requires it. Therefore, the finding is only a note, and the rule applies only to ROS.
 
     ## Example
     ```diff

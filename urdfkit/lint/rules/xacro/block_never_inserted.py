@@ -9,7 +9,7 @@ class BlockNeverInserted(SourceRule):
 
     ## What it does
     Checks for ``<xacro:macro>`` with a parameter such as ``*origin`` that no ``<xacro:insert_block>`` of its body
-    names. In a test with 200 robots from public repositories, no robot had such a macro.
+    names. The rule reported no macro in a test with 200 robots from public repositories.
 
     ## Why is this bad?
     xacro drops the block of each call without a message. Usually the block is an ``<origin>``, so the part is placed at

@@ -15,7 +15,7 @@ class DeprecatedCall(SourceRule):
 
     ## Why is this bad?
     xacro logs a warning at every run ("Using load_yaml() directly is deprecated"), and a future version will remove the
-    unprefixed name.
+    name without the prefix.
 
     ## Example
     ```diff

@@ -10,8 +10,8 @@ class DirectiveAttribute(FaultRule):
 
     ## What it does
     Checks the attributes of ``<xacro:property>``, ``<xacro:macro>``, ``<xacro:arg>``, ``<xacro:include>`` and
-    conditionals, and checks for commas between the parameters of a macro. The file is then expanded as if the attribute
-    were correct, to avoid follow-up errors.
+    conditionals, and checks for commas between the parameters of a macro. To avoid follow-up errors, the linter then
+    expands the file as if the attribute were correct.
 
     ## Why is this bad?
     xacro warns about an unknown attribute and ignores it. A property with ``vlaue``, for example, has no value, and

@@ -10,8 +10,8 @@ class ExpansionError(FaultRule):
 
     ## What it does
     Reports the xacro errors that no other rule covers, such as a missing attribute of a directive, an unknown
-    directive, or invalid YAML. A file that does not exist because of the default of an argument is reported as a note:
-    the robot requires another value.
+    directive, or invalid YAML. If a file does not exist because of the default of an argument, the finding is a note,
+    because the caller must pass another value.
 
     ## Why is this bad?
     xacro aborts with an error.

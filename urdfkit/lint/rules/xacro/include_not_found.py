@@ -14,12 +14,12 @@ class IncludeNotFound(FaultRule):
 
     ## What it does
     Checks for ``<xacro:include>`` with a file that does not exist, and for ``$(find …)`` with a package that is neither
-    in the workspace nor in the environment. The rest of the description is still checked. A package that
-    package.xml declares as a dependency is reported as a warning, because it may be missing only on this machine. A
-    file that does not exist because of the default of an argument is reported as a note.
+    in the workspace nor in the environment. The rest of the description is still checked. A package that package.xml
+    declares as a dependency is reported as a warning, because it may be missing only on this machine. If a file does
+    not exist because of the default of an argument, the finding is a note, because the caller must pass another value.
 
     ## Why is this bad?
-    xacro aborts with an error. The macros and properties that the file defines are missing.
+    xacro aborts with an error, because the macros and properties of the file are missing.
 
     ## Example
     ```diff

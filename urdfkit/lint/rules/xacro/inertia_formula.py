@@ -13,8 +13,8 @@ class InertiaFormula(SourceRule):
     names of the variables. If two of the three moments match a shape and the third does not, the third is reported.
 
     ## Why is this bad?
-    A widely copied box macro has ``x*x+z*z`` in ``izz``, which is correct only for cubes. Every link that uses it has a
-    wrong inertia.
+    A widely copied macro for boxes has ``x*x+z*z`` in ``izz``, which is correct only for cubes. Every link that uses
+    the macro has a wrong inertia.
 
     ## Example
     ```diff

@@ -12,7 +12,8 @@ class MacroArgsMismatch(FaultRule):
 
     ## What it does
     Checks for macro calls that omit a parameter without a default, pass an unknown parameter, or pass too few or too
-    many blocks. If a macro inserts a block whose parameter lacks the asterisk, this is reported once, at the macro.
+    many blocks. If a macro inserts a block whose parameter lacks the asterisk, the rule reports the macro once, not
+    each call.
 
     ## Why is this bad?
     xacro aborts with "Undefined parameters" and does not report which call is wrong.

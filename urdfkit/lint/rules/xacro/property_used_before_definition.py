@@ -28,8 +28,8 @@ class PropertyUsedBeforeDefinition(FaultRule):
 
     ## Fix safety
     Unsafe: if the use is in an included file, the fix moves the include, with everything that the file defines, after
-    the definition. Within one file, the fix moves the definition before its first use, where properties that the
-    definition uses may not be defined yet.
+    the definition. Within one file, the fix moves the definition before its first use. Properties that the definition
+    uses may be defined only after this place.
     """
 
     code = "X105"

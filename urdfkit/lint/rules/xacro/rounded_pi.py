@@ -21,9 +21,9 @@ class RoundedPi(SourceRule):
     """An angle or property is a rounded multiple of π.
 
     ## What it does
-    Checks ``rpy`` for rounded multiples of π, such as 3.14, 1.57 and 0.785, and checks for properties that define π.
-    Plain URDF files with meshes are usually exported from CAD programs, so angles with an error of up to 0.01 mrad are
-    accepted in them.
+    Checks ``rpy`` for rounded multiples of π, such as 3.14, 1.57 and 0.785, and checks for properties that define π. In
+    plain URDF files with meshes, angles with an error of up to 0.01 mrad are accepted, because such files usually come
+    from CAD programs.
 
     ## Why is this bad?
     1.57 rad is 0.8 mrad less than a right angle, an error of nearly one millimetre at a distance of one metre. xacro

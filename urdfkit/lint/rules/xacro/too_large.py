@@ -28,7 +28,7 @@ class TooLarge(FaultRule):
     A file must not take more than 10 s of CPU (``--time-limit``) or 1 GB of memory.
 
     ## Why is this bad?
-    xacro runs until the memory is exhausted, or forever.
+    Without limits, xacro runs forever or until the memory is exhausted.
 
     ## Example
     ```diff

@@ -14,7 +14,7 @@ class UndefinedArgument(FaultRule):
     passes the argument, or if a missing included file may declare it.
 
     ## Why is this bad?
-    xacro aborts unless every caller passes the argument.
+    xacro aborts if a caller does not pass the argument.
 
     ## Example
     ```diff

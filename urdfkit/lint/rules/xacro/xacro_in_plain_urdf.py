@@ -18,8 +18,8 @@ class XacroInPlainUrdf(SourceRule):
     it. A file is also accepted if a launch file of these packages runs xacro on it.
 
     ## Why is this bad?
-    The extension indicates plain URDF. RViz, MoveIt and viewers read the file without expanding it, so macros are
-    missing and ``${…}`` takes the place of numbers.
+    The extension indicates plain URDF. RViz, MoveIt and viewers read the file without expanding it, so they find macro
+    calls instead of links, and ``${…}`` instead of numbers.
 
     ## Example
     ```diff
