@@ -1,4 +1,6 @@
-"""Links between pages lead to files and headings that exist, and each page of the user guide opens with an example."""
+"""Links between pages lead to files and headings that exist, numbered lists count from one, and each page of the user
+guide opens with an example.
+"""
 
 from __future__ import annotations
 
@@ -27,6 +29,27 @@ def broken(page: Path, text: str) -> list[str]:
         if not target.exists() or (anchor and anchor not in anchors(target.read_text(encoding="utf-8"))):
             found.append(link)
     return found
+
+
+def miscounted(text: str) -> list[str]:
+    """Return the items of numbered lists that do not follow their predecessors: wrapped sentences with a number."""
+    found, last = [], dict[int, int]()
+    for line in re.sub(r"^ *```.*?^ *```$", "", text, flags=re.MULTILINE | re.DOTALL).splitlines():
+        if item := re.match(r"( *)(\d+)\. ", line):
+            indent, number = len(item[1]), int(item[2])
+            if number not in (1, last.get(indent, 0) + 1):
+                found.append(line)
+            last[indent] = number
+    return found
+
+
+def test_numbered_lists_count_from_one() -> None:
+    assert {page: items for page in PAGES if (items := miscounted(page.read_text(encoding="utf-8")))} == {}
+
+
+def test_a_sentence_that_became_an_item_is_found() -> None:
+    text = "1. one\n2. two\n\n1. one\n\n- at 100 Hz in ROS\n  2. Between updates\n"
+    assert miscounted(text) == ["  2. Between updates"]
 
 
 def test_links_have_targets() -> None:

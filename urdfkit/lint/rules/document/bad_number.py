@@ -21,9 +21,9 @@ class BadNumber(RobotRule):
     """A numeric value cannot be parsed.
 
     ## What it does
-    Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …). Common
-    causes are commas between numbers, trailing units, and expressions that were never evaluated. Also checks contact
-    parameters, gravity and self-collision of links in ``<gazebo>``.
+    Checks that every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …) can
+    be parsed. Parsing fails for commas between numbers, trailing units, and expressions that were never evaluated. Also
+    checks contact parameters, gravity and self-collision of links in ``<gazebo>``.
 
     ## Why is this bad?
     check_urdf, Pinocchio and MuJoCo reject the whole robot; more lenient readers use zero.

@@ -22,8 +22,8 @@ class SensorFrameElsewhere(RobotRule):
     ## What it does
     Compares ``frameName``, ``frame_name`` and ``gz_frame_id`` of lidars and cameras with the link of the sensor.
     Reports a frame that is at least 5 cm away from the link of the sensor. For an IMU or GPS, reports a frame or a
-    reference that names the link of another sensor. Sensors with a ``<pose>`` other than zero are not checked. In a
-    test with 200 robots from public repositories, no robot had such a sensor.
+    reference that names the link of another sensor. Sensors with a ``<pose>`` other than zero are not checked. The
+    rule reported no sensor in a test with 200 robots from public repositories.
 
     ## Why is this bad?
     All measurements are shifted, so obstacles and walls appear in the wrong place on the map.
