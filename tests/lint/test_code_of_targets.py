@@ -12,7 +12,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import commands
 from urdfkit.lint.facts.packaging.cmake_defects import cmake_defects
-from urdfkit.lint.facts.packaging.target_code import targets
+from urdfkit.lint.facts.packaging.targets import targets
 
 CMAKE = """cmake_minimum_required(VERSION 3.8)
 project(cart)
@@ -113,6 +113,27 @@ def test_targets_of_ament(tmp_path, monkeypatch, old, new, expected):
     assert found(tmp_path) == []
     assert CMAKE.count(old) == 1
     write(tmp_path, {"CMakeLists.txt": CMAKE.replace(old, new)})
+    assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
+
+
+CORE = CMAKE[CMAKE.index("add_library(core") : CMAKE.index("ament_target_dependencies(part")]
+
+
+@pytest.mark.parametrize(
+    ("sources", "code", "expected"),
+    [
+        ("", {}, ["8: no target compiles `src/core.cpp`, but target `part` uses its header `cart/core.hpp`"]),
+        (" src/core.cpp", {}, []),
+        (" ${sources}", {}, []),
+        ("", {"src/core.cpp": '#include "cart/core.hpp"\nint main() { return 0; }\n'}, []),
+        ("", {"src/core.cpp": "double speed() { return 1.0; }\n"}, []),
+    ],
+)
+def test_files_that_no_target_compiles(tmp_path, monkeypatch, sources, code, expected):
+    monkeypatch.chdir(tmp_path)
+    part = f"add_library(part SHARED src/part.cpp{sources})\ntarget_include_directories(part PUBLIC include)\n"
+    text = CMAKE.replace(CORE, part).replace("TARGETS core part", "TARGETS part")
+    write(tmp_path, {**FILES, "CMakeLists.txt": text, **code})
     assert found(tmp_path) == [f"CMakeLists.txt:{each}" for each in expected]
 
 

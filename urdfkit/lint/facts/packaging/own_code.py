@@ -1,0 +1,80 @@
+"""Headers, libraries and source files of the own package that the targets of a CMakeLists.txt need."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from urdfkit.description.packages.existence import is_file
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.packaging.build_files import BuildFiles
+from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
+from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
+from urdfkit.lint.facts.packaging.targets import CODE, Target, included, linked
+from urdfkit.lint.facts.ros_packages import is_slip
+
+
+def missing_own_headers(
+    source: Source, target: Target, own: Mapping[str, Target], files: BuildFiles, folders: set[str]
+) -> Iterator[BuildDefect]:
+    """Yield a missing folder of headers of the package, and libraries of the package that a target has to link."""
+    reached = linked(target, own, files)
+    available = {*folders, *(word for name in reached for word in own[name].words)}
+    has_folder = any("include" in word.lower() and "catkin_INCLUDE" not in word for word in available)
+    needed = [(path, header) for path, header in target.headers if files.has(f"include/{header}")]
+    if needed and not has_folder:
+        near = next((word for word in sorted(available) if is_slip(word, "include")), None)
+        if near is None:
+            message = f"`{needed[0][1]}` is not found: target `{target.name}` lacks the folder `include` of headers"
+            yield BuildDefect(source, target.added.start, target.added.name, message)
+            return
+    stems = {Path(header).stem: header for _, header in needed}
+    for library in own.values():
+        if library.name in reached or library.added.name != "add_library" or library.is_module:
+            continue
+        made = next((path for path in library.sources if path.stem in stems), None)
+        if made is None or any(path.stem == made.stem for name in reached for path in own[name].sources):
+            continue
+        if any(path == made and header == stems[made.stem] for path, header in library.headers):
+            message = (
+                f"target `{target.name}` uses `{stems[made.stem]}`, but does not link the library `{library.name}`"
+            )
+            yield BuildDefect(source, *target.place, message)
+            reached.add(library.name)
+
+
+def uncompiled_files(
+    source: Source, own: Mapping[str, Target], files: BuildFiles, every: list[CMakeCommand]
+) -> Iterator[BuildDefect]:
+    """Yield targets that include a header of the package whose code in the same folder no target compiles.
+
+    This code has the name of the header, includes it and has no ``main()``.
+    """
+    words = [word for target in own.values() for word, _ in target.added.words[1:]]
+    if any("$" in word and "TARGET_OBJECTS" not in word for word in words):
+        return  # a variable may name more files
+    if any(command.name in _ADDING_FILES for command in every):
+        return
+    compiled = {path.stem for target in own.values() for path in target.sources}
+    for target in own.values():
+        folders = sorted({path.parent for path in target.sources})
+        for path, header in target.headers:
+            stem = Path(header).stem
+            if stem in compiled or not (files.has(f"include/{header}") or is_file(path.parent / header)):
+                continue
+            beside = [each for folder in folders for each in sorted(folder.glob(f"{stem}.c*"))]
+            code = next((each for each in beside if re.fullmatch(CODE, each.name) and _implements(each, header)), None)
+            if code is not None:
+                compiled.add(stem)
+                name = code.relative_to(files.folder).as_posix()
+                message = f"no target compiles `{name}`, but target `{target.name}` uses its header `{header}`"
+                yield BuildDefect(source, target.added.start, target.added.name, message)
+
+
+_ADDING_FILES = ("target_sources", "add_subdirectory", "include", "aux_source_directory", "qt5_wrap_cpp")
+
+
+def _implements(path: Path, header: str) -> bool:
+    """Return whether a file in C++ includes a header and is no program."""
+    return header in included(path) and re.search(r"\bmain\s*\(", path.read_text("utf-8", "replace")) is None
