@@ -60,6 +60,7 @@ def format_defects(files: BuildFiles) -> Iterator[FormatDefect]:
     yield from _elements(root)
     yield from _values(files, root)
     yield from _dependencies(files, root)
+    yield from _exports(files)
 
 
 def _elements(root: Tag) -> Iterator[FormatDefect]:
@@ -132,3 +133,22 @@ def _dependencies(files: BuildFiles, root: Tag) -> Iterator[FormatDefect]:
 
 def _is_dependency(tag: Tag) -> bool:
     return tag.name.endswith("depend")
+
+
+_GAZEBO_PATHS = ("gazebo_model_path", "gazebo_media_path", "plugin_path")
+
+
+def _exports(files: BuildFiles) -> Iterator[FormatDefect]:
+    """Yield paths for Gazebo in ``<gazebo_ros>`` that name no folder of the package, and misspelt attributes."""
+    for _, tag in files.tags("gazebo_ros") if files.cmake is not None or files.setup is not None else ():
+        for name, attribute in tag.attributes.items():
+            if name not in _GAZEBO_PATHS:
+                near = nearest(name, _GAZEBO_PATHS, cutoff=0.8)
+                if near is not None:
+                    yield FormatDefect(tag, f"unknown attribute `{name}` of <gazebo_ros>" + Suggestion(near), "warning")
+                continue
+            for path in attribute.value.split(":") if name != "plugin_path" else ():
+                inner = re.fullmatch(r"\$\{prefix\}/([\w-]+)(?:/.*)?", path)
+                if inner is not None and not files.has(inner[1]):
+                    message = f"folder `{inner[1]}` of {name} does not exist in this package"
+                    yield FormatDefect(tag, message, "warning")

@@ -82,12 +82,14 @@ class ManifestInvalid(RobotRule):
                     message = f"`{text}` is a package of {other}, but `{files.build_tool}` builds this package"
                     yield self._at(files, tag, message, "warning", kind="dependency")
             for text, tag in files.tags(*depends - {"test_depend"}):
-                # catkin orders packages by what they need to be built.
-                is_ordered = files.build_tool.startswith("ament") and text in folders and text != files.name
-                cycle = cycle_over(files.name, text, folders) if is_ordered and not tag.attributes else []
+                is_own = text in folders and text != files.name and not tag.attributes
+                cycle = cycle_over(files.name, text, folders) if is_own else []
                 if cycle and files.name == min(cycle):  # each cycle in one package
                     names = " → ".join(f"`{name}`" for name in cycle)
-                    yield self._at(files, tag, f"the packages depend on each other: {names}; colcon fails")
+                    # catkin orders packages by what they need to be built.
+                    severity: Severity = "error" if files.build_tool.startswith("ament") else "note"
+                    message = f"the packages depend on each other: {names}; colcon fails"
+                    yield self._at(files, tag, message, severity, kind="cycle")
             yield from self._build_tool(files, root)
 
     def _build_tool(self, files: BuildFiles, root: Tag) -> Findings:
