@@ -465,3 +465,17 @@ def test_targets_and_their_sources(cmake, old, new, expected):
     reported = found(cmake)
     assert len(reported) == len(expected)
     assert all(line.startswith(f"CMakeLists.txt:{start}") for line, start in zip(reported, expected, strict=True))
+
+
+@pytest.mark.parametrize("folder", ["meshes", "urdf"])
+def test_a_folder_of_meshes_that_a_property_names(cmake, folder):
+    (cmake / "meshes").mkdir()
+    model = f"""<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="shapes" value="package://cart/{folder}"/>
+  <link name="base"><visual><geometry><mesh filename="${{shapes}}/base.stl"/></geometry></visual></link>
+</robot>
+"""
+    write(cmake, {"urdf/cart.urdf.xacro": model, f"{folder}/base.stl": "solid base\nendsolid base\n"})
+    (cmake / "urdf/cart.urdf").unlink()
+    message = "CMakeLists.txt:4: folder `meshes` of this package is not installed"
+    assert [each for each in found(cmake) if "not installed" in each] == [message] * (folder == "meshes")

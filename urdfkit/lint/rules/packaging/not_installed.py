@@ -47,7 +47,7 @@ class NotInstalled(RobotRule):
         if package is None or not package_name:
             return
         name = re.escape(package_name)
-        uses = re.compile(rf"(?:package://{name}|\$\(find(?:-pkg-share)?\s+{name}\))/([\w-]+)/")
+        uses = re.compile(rf"(?:package://{name}|\$\(find(?:-pkg-share)?\s+{name}\))/([\w-]+)(?=[/\"'\s])")
         install_rules: str | None = None
         checked: set[str] = set()
         for file, source in model.expanded.sources.items():
