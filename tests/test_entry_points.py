@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import importlib.metadata
+import os
 import sys
+import time
 
 import pytest
 
@@ -37,3 +39,24 @@ def test_loading(tmp_path, monkeypatch):
     with pytest.raises(ResourceError, match=r"a-1\.dist-info: entry point broken = json:nothing: module 'json' has no"):
         load("y")
     assert EntryPoint("a", "b:c", "d") < EntryPoint("b", "a:c", "d")
+
+
+def test_files_are_read_again_only_after_a_change_of_their_folder(tmp_path):
+    def install(package, attribute):
+        (tmp_path / package).mkdir(exist_ok=True)
+        (tmp_path / package / "entry_points.txt").write_text(f"[x]\n{package} = os:{attribute}\n")
+
+    def attributes():
+        return [entry.value for entry in entry_points("x", path=[str(tmp_path)])]
+
+    install("a.dist-info", "first")
+    assert attributes() == ["os:first"]
+    install("a.dist-info", "second")
+    assert attributes() == ["os:second"]  # the folder has just changed, so an installation may still write into it
+    an_hour_ago = time.time() - 3600
+    os.utime(tmp_path, (an_hour_ago, an_hour_ago))
+    assert attributes() == ["os:second"]
+    (tmp_path / "a.dist-info" / "entry_points.txt").unlink()
+    assert attributes() == ["os:second"]
+    install("b.dist-info", "third")
+    assert attributes() == ["os:third"]

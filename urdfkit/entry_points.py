@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from importlib import import_module
 
 from urdfkit.errors import ResourceError
@@ -16,7 +17,10 @@ from urdfkit.record import record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from typing import Any
+    from typing import Any, TypeAlias
+
+    Found: TypeAlias = list[tuple[str, "EntryPoint"]]
+    """Group and entry point."""
 
 PLUGIN_GROUPS = ("urdfkit.drives", "urdfkit.sensors", "urdfkit.controllers")
 """Groups of classes that simulate Gazebo plugins."""
@@ -61,10 +65,8 @@ def entry_points(*groups: str, path: Iterable[str] | None = None) -> list[EntryP
     """
     found: dict[tuple[str, str], EntryPoint] = {}
     for folder in sys.path if path is None else path:
-        for name in _distributions(folder or os.curdir):
-            file = f"{folder or os.curdir}/{name}/entry_points.txt"
-            for group, entry in _read(file, groups, name):
-                found.setdefault((group, entry.name), entry)
+        for group, entry in _entry_points_in(folder or os.curdir, groups):
+            found.setdefault((group, entry.name), entry)
     return sorted(found.values())
 
 
@@ -77,15 +79,33 @@ def load(group: str) -> list[Any]:
     return [entry.load() for entry in entry_points(group)]
 
 
-def _distributions(folder: str) -> list[str]:
+_read_before: dict[tuple[str, tuple[str, ...]], tuple[tuple[int, ...], Found]] = {}
+"""Folder and groups → state of the folder, which every installation changes, and its entry points."""
+_SETTLED = 10 * 10**9
+"""An installation may still write into folders that changed later than this [ns]."""
+
+
+def _entry_points_in(folder: str, groups: tuple[str, ...]) -> Found:
+    """Return the entry points of the packages in a folder, which are read again only after a change of the folder."""
     try:
+        status = os.stat(folder)  # noqa: PTH116 - a path takes longer
+        state = (status.st_dev, status.st_ino, status.st_mtime_ns)
+        before = _read_before.get((folder, groups))
+        if before is not None and before[0] == state:
+            return before[1]
         names = os.listdir(folder)  # noqa: PTH208 - only names are needed
     except OSError:
         return []
-    return [name for name in names if name.endswith((".dist-info", ".egg-info"))]
+    found: Found = []
+    for name in names:
+        if name.endswith((".dist-info", ".egg-info")):
+            found += _read(f"{folder}/{name}/entry_points.txt", groups, name)
+    if time.time_ns() - status.st_mtime_ns > _SETTLED:
+        _read_before[folder, groups] = state, found
+    return found
 
 
-def _read(file: str, groups: tuple[str, ...], distribution: str) -> list[tuple[str, EntryPoint]]:
+def _read(file: str, groups: tuple[str, ...], distribution: str) -> Found:
     headings = [f"[{group}]" for group in groups]
     try:  # A hundred of these on every start: unbuffered, because buffered reading takes three times as long.
         descriptor = os.open(file, os.O_RDONLY)
@@ -98,7 +118,7 @@ def _read(file: str, groups: tuple[str, ...], distribution: str) -> list[tuple[s
         text = content.decode()
     except (OSError, UnicodeDecodeError):
         return []
-    found = []
+    found: Found = []
     section = ""
     for line in text.splitlines():
         line = line.strip()

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.description.packages.related_files import manifest, package_of, uncommented
 from urdfkit.description.xml.source import Source
 
@@ -11,6 +12,7 @@ _ROS2 = r"\$\((?:find-pkg-\w+|var|find-exec)\s|<let\b|<node\b[^<>]*\sexec\s*="
 _MANY = 3
 
 
+@kept
 def ros_version(source: Source) -> int:
     """Return 1 or 2 by the build tool of the package, else by the words of the file; 0 if these contradict."""
     text = uncommented(source.text)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
+from urdfkit.description.packages.kept_files import kept
 from urdfkit.description.packages.related_files import LAUNCH, neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
@@ -63,6 +64,7 @@ class LaunchedNode:
     file_places: tuple[tuple[int, int], ...] = ()
 
 
+@kept
 def launched_nodes(model: Model) -> list[LaunchedNode]:
     """Return the nodes in the launch files of the model's package and of related packages."""
     found: list[LaunchedNode] = []
