@@ -232,6 +232,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
     (_YAML, "packaging.parameter_value_invalid", "ParameterValueInvalid"),
     (_YAML, "packaging.parameter_unlike_others", "ParameterUnlikeOthers"),
+    (_YAML, "packaging.parameter_contradicts_robot", "ParameterContradictsRobot"),
     ("package.xml", "packaging.manifest_invalid", "ManifestInvalid"),
     ("package.xml", "packaging.build_file_inconsistent", "BuildFileInconsistent"),
     (f"{_LAUNCH} {_YAML}", "packaging.parameter_type_wrong", "ParameterTypeWrong"),

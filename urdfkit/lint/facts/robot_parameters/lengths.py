@@ -1,0 +1,144 @@
+"""Lengths in the parameters of nodes that contradict the robot: wheels, their distances, and segments of limbs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import combinations
+from math import hypot
+
+from urdfkit.description.urdf.robot import Box, Cylinder, Joint, Link, Sphere
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
+from urdfkit.lint.facts.control.yaml_tree import Node, number_of
+from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
+from urdfkit.lint.facts.robot_parameters.groups import groups_of_nodes, tokens
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.placement import shapes_of
+
+Defects = Iterator[tuple[Source, Node, str]]
+
+_TOLERANCE = 0.1
+"""Accepted relative deviation of wheels, which are tuned on real robots."""
+
+_TOLERANCE_OF_SEGMENTS = 0.02
+"""Accepted relative deviation of the segments of a limb."""
+
+_MOST_SKID = 2.0
+"""Largest ratio of an effective track to the distance of the wheels, if wheels slip when the robot turns."""
+
+_SIZE = r"(?:drive_|driven_)?wheel_(radius|diameter)"
+_TRACK = r"track|track_?width|wheel_(?:track|separation|distance)|separation_between_wheels"
+_BASE = r"wheel_?base|axle_(?:distance|separation)"
+_SEGMENT = r"(?:length_of_)?([a-z]+(?:_[a-z]+)*?)_(?:length|len)"
+
+_SIDES = frozenset(
+    (
+        *("fl", "fr", "rl", "rr", "bl", "br", "lf", "rf", "lr", "lh", "rh", "lb", "rb", "ml", "mr", "l", "r"),
+        *("left", "right", "front", "rear", "back", "middle", "mid", "center", "centre", "link"),
+    )
+)
+"""Words in the names of links that all segments of a limb may have."""
+
+
+def wrong_lengths(model: Model) -> Defects:
+    """Yield the lengths that contradict the robot, with a message."""
+    wheels = [] if has_other_wheels(model) else _wheels(model)
+    for source, group in groups_of_nodes(model):
+        for key, value in group.entries:
+            number, name = number_of(value), key.text.rpartition(".")[2]
+            if number is None or number <= 0.0:
+                continue
+            message = _of_wheels(name, number, wheels, model) or _of_segment(name, number, model)
+            if message:
+                yield source, value, message
+
+
+def _wheels(model: Model) -> list[Wheel]:
+    """Return the wheels of the robot that turn without limits."""
+    found = [
+        wheel_of(model, joint, None)
+        for joint in model.robot.joints
+        if joint.type == "continuous" and {"wheel", "wheels"} & {*tokens(joint.name), *tokens(joint.child or "")}
+    ]
+    return [wheel for wheel in found if wheel is not None and "caster" not in tokens(wheel.joint.child or "")]
+
+
+def _of_wheels(name: str, number: float, wheels: list[Wheel], model: Model) -> str:
+    """Return the message for a size or distance of wheels that none of the robot's wheels has; empty for others."""
+    size = re.fullmatch(_SIZE, name)
+    if size is not None:
+        radii = [radius for wheel in wheels for radius in _radii(wheel, model) if radius > 0.0]
+        factor = 2.0 if size[1] == "diameter" else 1.0
+        if not radii or any(abs(number - factor * radius) <= _TOLERANCE * factor * radius for radius in radii):
+            return ""
+        return f"`{name}` is {number:g} m, but the {size[1]} of the wheels is {factor * radii[0]:.6g} m"
+    is_track, is_base = (re.fullmatch(pattern, name) is not None for pattern in (_TRACK, _BASE))
+    if len(wheels) < 2 or not (is_track or is_base):
+        return ""
+    sides, lengths = (
+        sorted({round(abs(one.place[k] - other.place[k]), 6) for one, other in combinations(wheels, 2)} - {0.0})
+        for k in (1, 0)
+    )
+    if is_base and not lengths:
+        lengths = sides  # the only distance of two wheels
+    distances = sides if is_track else lengths
+    most = _MOST_SKID if len(wheels) > 2 and is_track else 1.0 + _TOLERANCE
+    accepted = [*distances, *(sides if is_base else ())]
+    if not distances or any(each / (1.0 + _TOLERANCE) <= number <= most * each for each in accepted):
+        return ""
+    return f"`{name}` is {number:g} m, but the wheels are {distances[-1]:.6g} m apart"
+
+
+def _radii(wheel: Wheel, model: Model) -> list[float]:
+    """Return the radii of the collision shapes of a wheel [m], or of its visual shapes if it has no round ones."""
+    link = model.robot.link_by_name.get(wheel.joint.child or "")
+    for shapes in (link.collisions, link.visuals) if link is not None else ():
+        radii = [each.geometry.radius for each in shapes if isinstance(each.geometry, (Cylinder, Sphere))]
+        if radii:
+            return radii
+    return []
+
+
+def _of_segment(name: str, number: float, model: Model) -> str:
+    """Return the message for the length of a segment that all links of this name contradict; empty for others."""
+    segment = re.fullmatch(_SEGMENT, name)
+    if segment is None:
+        return ""
+    robot = model.robot
+    moved = {joint.child for joint in robot.joints if joint.type != "fixed"}
+    links = [
+        link
+        for link in robot.links
+        if link.name in moved and [word for word in tokens(link.name) if word not in _SIDES] == tokens(segment[1])
+    ]
+    children = [[joint for joint in robot.joints if joint.parent == link.name] for link in links]
+    if not links or not all(children):
+        return ""
+    farthest = [max(joints, key=_distance) for joints in children]
+    lengths = [_distance(joint) for joint in farthest]
+    if min(lengths) <= 0.0 or max(lengths) - min(lengths) > _TOLERANCE_OF_SEGMENTS * max(lengths):
+        return ""
+    others = [abs(part) for joint in farthest for part in joint.origin.xyz]
+    others += [size for link in links for size in _sizes(link)]
+    if any(abs(number - each) <= _TOLERANCE_OF_SEGMENTS * each for each in (*lengths, *others)):
+        return ""
+    return (
+        f"`{name}` is {number:g} m, but joint `{farthest[0].name}` is {lengths[0]:.4g} m from the origin of link"
+        f" `{links[0].name}`"
+    )
+
+
+def _distance(joint: Joint) -> float:
+    return hypot(*joint.origin.xyz)
+
+
+def _sizes(link: Link) -> Iterator[float]:
+    """Yield the sizes of the shapes of a link [m]."""
+    for shape in shapes_of(link):
+        if isinstance(shape.geometry, Box):
+            yield from shape.geometry.size
+        elif isinstance(shape.geometry, Cylinder):
+            yield shape.geometry.length
+        elif isinstance(shape.geometry, Sphere):
+            yield 2.0 * shape.geometry.radius
