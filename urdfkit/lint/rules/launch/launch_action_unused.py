@@ -29,6 +29,8 @@ class LaunchActionUnused(RobotRule):
     its target. A variable that a comment mentions is not checked, because its action is probably disabled on purpose.
     Attributes of classes are not checked, because code can collect the actions stored in them.
 
+    In files without includes, a variable with the value of a declared argument is reported as well, if nothing uses it.
+
     ## Why is this bad?
     The node does not start, or the argument is not declared, and launch prints no error message.
 
@@ -55,8 +57,12 @@ class LaunchActionUnused(RobotRule):
 
         from urdfkit.lint.facts.launch.python.api import first_slip
         from urdfkit.lint.facts.launch.python.names import python_files, undefined
+        from urdfkit.lint.facts.launch.python.unused_arguments import unused_arguments
 
         for source, tree in python_files(model):
+            for argument, node in unused_arguments(tree):
+                message = f"argument `{argument}` is declared, but nothing in this file uses its value"
+                yield self.at_span(source.span(*place(source, node)), message, kind="argument")
             created, used, targets = _names(tree)
             unknown: dict[str, ast.Name] | None = None
             own = _in_place_of(tree) if len(created.keys() - used) == 1 else None
