@@ -143,7 +143,8 @@ inflation_layer:
 """,
 }
 
-RELEASED = "nav2_controller nav2_amcl robot_localization rplidar_ros ros_gz_bridge slam_toolbox twist_mux"
+RELEASED = """nav2_controller nav2_amcl nav2_costmap_2d nav2_map_server robot_localization rplidar_ros ros_gz_bridge
+ros_gz_sim slam_toolbox twist_mux"""
 ROS2 = {
     "cart.urdf": ROBOT2,
     "package.xml": manifest("ament_cmake", *RELEASED.split()),
@@ -169,11 +170,25 @@ ament_package()
 amcl:
   ros__parameters:
     scan_topic: scan_front
+global_costmap:
+  global_costmap:
+    ros__parameters:
+      global_frame: map
+      robot_base_frame: base
+      plugins: [static_layer]
+      static_layer:
+        plugin: nav2_costmap_2d::StaticLayer
+        map_subscribe_transient_local: true
 """,
     "config/bridge.yaml": """- ros_topic_name: clock
   gz_topic_name: /world/hall/clock
   ros_type_name: rosgraph_msgs/msg/Clock
   gz_type_name: gz.msgs.Clock
+  direction: GZ_TO_ROS
+- ros_topic_name: wheels/odom
+  gz_topic_name: /model/cart/odometry
+  ros_type_name: nav_msgs/msg/Odometry
+  gz_type_name: gz.msgs.Odometry
   direction: GZ_TO_ROS
 """,
     "worlds/hall.sdf": '<sdf version="1.9"><world name="hall"/></sdf>\n',
@@ -220,6 +235,17 @@ def generate_launch_description():
             name="ekf_filter_node",
             parameters=[PathJoinSubstitution([share, "config", "ekf.yaml"])],
             remappings=[("odometry/filtered", "odom")],
+        ),
+        Node(
+            package="nav2_map_server",
+            executable="map_server",
+            name="map_server",
+            parameters=[{"yaml_filename": "hall.yaml"}],
+        ),
+        Node(
+            package="ros_gz_sim",
+            executable="create",
+            arguments=["-world", "hall", "-name", "cart", "-topic", "robot_description"],
         ),
     ])
 """,
@@ -369,6 +395,8 @@ MISTAKES = [
         2,
         "no world file of these packages has a world `default`",
     ),
+    (ROS2, "config/bridge.yaml", "/cart/odo", "/trolley/odo", "K969", 7, "no launch file spawns a model `trolley`"),
+    (ROS2, "config/nav2.yaml", "local: true", "local: false", "K982", 20, "`map_server` publishes the map before this"),
     (
         ROS2,
         START,

@@ -116,6 +116,14 @@ local_costmap:
 }
 
 BAD = [
+    (
+        "filter",
+        "world_frame: odom",
+        "world_frame: map",
+        "K983",
+        7,
+        "no input measures x and y; write the odometry frame",
+    ),
     ("joystick", "x: 1", "x: 1.0", "K974", 7, "`axis_linear.x` is the number with a decimal point 1.0; write 1"),
     ("joystick", "enable_button: 4", "enable_button: -4", "K971", 4, "`enable_button` is -4; 0 to 63 is needed"),
     ("joystick", "enable_button: 4", "deadman_button: 4", "K971", 4, "did you mean `enable_button`?"),

@@ -1,4 +1,4 @@
-"""Topics of Gazebo and arguments of spawners with the name of a world that the packages do not have."""
+"""Topics of Gazebo and arguments of spawners with the name of a world or model that the packages do not have."""
 
 import re
 from collections.abc import Iterator
@@ -40,3 +40,32 @@ def topics_of_other_worlds(model: Model) -> Iterator[tuple[Source, int, str, lis
     for source, at in used:
         if at[1] not in worlds:
             yield source, at.start(1), at[1], sorted(worlds)
+
+
+_MODEL_TOPIC = r"(?<![\w/])/model/(\w+)/(?=\w)"
+_NAME = r"(?<![\w-])--?name(?:[\"']?\s*,\s*[\"']|\s+[\"']?)(\w+)(?=[\s\"'])"
+"""Matches the name of the model among the arguments of ``create`` (ros_gz_sim)."""
+
+_ANY_NAME = r"(?<![\w-])--?name(?=[\s\"'])"
+_MODEL = r"<model\s[^<>]*?\bname\s*=\s*[\"']([^\"'<>]+)[\"']|<name>\s*([^<>]+?)\s*</name>"
+"""Matches the names of models and includes in a world."""
+
+
+def topics_of_other_models(model: Model) -> Iterator[tuple[Source, int, str, list[str]]]:
+    """Yield file, offset and name of each model in a topic that no launch file spawns and no world contains, with all.
+
+    Nothing is yielded if a launch file computes the name of a model that it spawns.
+    """
+    files = [source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml", *LAUNCH))]
+    used = [(source, at) for source in files for at in re.finditer(_MODEL_TOPIC, uncommented(source))]
+    spawning = [uncommented(source) for source in files if "ros_gz_sim" in source.text and "create" in source.text]
+    spawned = {name for text in spawning for name in re.findall(_NAME, text)}
+    every = sum(len(re.findall(_ANY_NAME, text)) for text in spawning)
+    if not used or not spawned or every != sum(len(re.findall(_NAME, text)) for text in spawning):
+        return
+    folders = {folder for file in model.related_files if (folder := package_of(Path(file))) is not None}
+    texts = [text for folder in sorted(folders) for _, text in code_texts(folder, _ENDINGS)]
+    others = {name for text in texts for pair in re.findall(_MODEL, text) for name in pair}
+    for source, at in used:
+        if at[1] not in spawned | others | {model.robot.name}:
+            yield source, at.start(1), at[1], sorted(spawned)

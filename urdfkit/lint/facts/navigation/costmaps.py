@@ -16,6 +16,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, nodes, number_of, walk, yamls
 from urdfkit.lint.facts.navigation.sections import COSTMAPS, costmaps_of_ros1, sections
+from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -89,12 +90,29 @@ def costmap_defects(model: Model) -> Defects:
             fixed is not None and has_static_layer and each.name == "global_costmap" and fixed.text.strip("/") == "odom"
         ):
             yield source, fixed, "`global_frame` is `odom`, but the static layer has a map in the frame `map`"
+        yield from _late_map(model, each)
         yield from _footprint(each)
         shape = _shape(each, every)
         yield from _window(each, shape)
         yield from _inflation(each, shape)
         yield from _two_shapes(each)
     yield from _late(model, every)
+
+
+_KEEPING_MAPS = ("nav2_map_server", "slam_toolbox")
+"""Packages whose nodes publish the map once for present and later subscribers."""
+
+
+def _late_map(model: Model, each: Costmap) -> Defects:
+    """Yield the flag of a static layer that does not get the map that has been published before it subscribes."""
+    for _, layer in each.group.entries:
+        flag = layer.find("map_subscribe_transient_local")
+        if flag is None or flag.text not in _FALSE:
+            continue
+        sender = next((node.program for node in launched_nodes(model) if node.package in _KEEPING_MAPS), None)
+        if sender is not None:
+            message = f"`{sender}` publishes the map before this layer subscribes, and the layer does not get it"
+            yield each.source, flag, f"{message}; write true"
 
 
 def _layers(group: Node) -> Iterator[tuple[Node, str]]:

@@ -109,6 +109,7 @@ def estimate_defects(model: Model, every: list[Filter]) -> Defects:
     tolerances = list(_tolerances(model)) if every else []
     for each in every:
         yield from _unmeasured(each, sideways)
+        yield from _without_place(each)
         yield from _slower_than_transforms(each, tolerances)
 
 
@@ -144,6 +145,16 @@ def _unmeasured(each: Filter, sideways: bool | None) -> Defects:
             why = ", but the base can move sideways" if axis == "y" else f"; {axis} drifts without bound"
             message = f"`{name}_config` does not fuse v{axis}{why}"
         yield each.source, node, message
+
+
+def _without_place(each: Filter) -> Defects:
+    """Yield the frame of a filter in the map frame whose inputs measure neither x nor y."""
+    inputs, frame = list(each.inputs()), each.group.find("world_frame")
+    written = [key for key, _ in each.group.entries if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", key.text)]
+    has_place = any(value not in FALSE for _, _, _, values in inputs for value in values[:2])
+    if each.is_global and inputs and len(inputs) == len(written) and not has_place and frame is not None:
+        message = "`world_frame` is the map frame, but no input measures x and y; write the odometry frame"
+        yield each.source, frame, message
 
 
 def _slower_than_transforms(each: Filter, tolerances: list[tuple[Source, float]]) -> Defects:

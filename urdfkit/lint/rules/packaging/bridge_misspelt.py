@@ -46,6 +46,7 @@ class BridgeMisspelt(RobotRule):
     - misspelt message types, keys, directions and topics of the robot
     - pairs of types that cannot be converted, and pairs of topics of the left and the right side of the robot
     - topics of commands and sensors that are bridged in the wrong direction
+    - topics with the name of a world or model that no world file or launch file has
     - a missing bridge for the clock or the joint states, if nodes need them
 
     ## Why is this bad?
@@ -74,7 +75,7 @@ class BridgeMisspelt(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid key, type, topic or direction."""
-        yield from self._worlds(model)
+        yield from self._worlds_and_models(model)
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
@@ -130,13 +131,17 @@ class BridgeMisspelt(RobotRule):
                 found = Finding(**{**found.__dict__, **details, "suggestion": None})
             yield Finding(**{**found.__dict__, "names": (found.meant,)}) if found.meant else found
 
-    def _worlds(self, model: Model) -> Findings:
-        from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_worlds
+    def _worlds_and_models(self, model: Model) -> Findings:
+        from urdfkit.lint.facts.gazebo.world_topics import topics_of_other_models, topics_of_other_worlds
 
         for source, start, world, worlds in topics_of_other_worlds(model):
             near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
             message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
             yield self.at_span(source.span(start, start + len(world)), message)
+        for source, start, name, names in topics_of_other_models(model):
+            near = nearest(name, names, cutoff=0.7) or (names[0] if len(names) == 1 else None)
+            message = f"no launch file spawns a model `{name}`" + Suggestion(near, name)
+            yield self.at_span(source.span(start, start + len(name)), message)
 
     def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
         return self.at_span(source.span(reference.start, reference.end), message, kind=kind)
