@@ -158,6 +158,22 @@ def test_move_group_reads_pipelines_from_its_own_namespace(tmp_path, space):
     assert [row[1:] for row in found(cart, "L110")] == ([(3, message)] if space == "moveit" else [])
 
 
+@pytest.mark.parametrize(
+    ("space", "pipelines", "count"),
+    [("move_group/ompl", True, 1), ("move_group/planning_pipelines/ompl", True, 0), ("move_group", False, 0)],
+)
+def test_included_pipelines_are_in_the_namespace_of_move_group(tmp_path, space, pipelines, count):
+    cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
+    plugin = '<launch><param name="planning_plugin" value="ompl_interface/OMPLPlanner"/></launch>\n'
+    write(cart / "launch/ompl.launch.xml", plugin)
+    names = '<rosparam param="planning_pipelines">["ompl"]</rosparam>' if pipelines else ""
+    node = f'<node name="move_group" pkg="moveit_ros_move_group" type="move_group">{names}</node>'
+    include = f'<include ns="{space}" file="$(find cart)/launch/ompl.launch.xml"/>'
+    write(cart / "launch/m.launch", f"<launch>\n{include}\n{node}\n</launch>\n")
+    message = "node `move_group` reads its planning pipelines from `move_group/planning_pipelines`"
+    assert [row[1:] for row in found(cart, "L110")] == [(2, message)] * count
+
+
 def test_a_misspelt_namespace_of_planning_pipelines(tmp_path):
     cart = package(tmp_path / "cart", "catkin", "moveit_ros_move_group")
     write(cart / "launch/m.launch", MOVE_GROUP.format("move_group").replace("planning_pipelines", "planning_pipeline"))

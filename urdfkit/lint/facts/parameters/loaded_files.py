@@ -38,7 +38,7 @@ _EXPECTED = {
 
 def loaded_file_defects(source: Source, model: Model) -> Defects:
     """Yield the files that a ROS 1 launch file loads without substitution or into the wrong namespace."""
-    for tag in _tags(source):
+    for tag in tags_of(source):
         attributes = tag.attributes
         file = attributes.get("file")
         if tag.name != "rosparam" or file is None or _is_command(tag):
@@ -56,9 +56,9 @@ def loaded_file_defects(source: Source, model: Model) -> Defects:
         use = re.search(_SUBSTITUTION, text)
         if use is not None and not is_replaced:
             yield file, f'`{use[0]}` in {name} is not replaced; add `subst_value="true"`'
-        namespace = _namespace(tag)
-        is_of_costmaps = tag.parent is not None and tag.parent.name == "node" and _program(tag.parent) == "move_base"
-        if is_of_costmaps and (message := _unread_by_costmaps(parameters, _own_namespace(tag))) is not None:
+        namespace = namespace_of(tag)
+        is_of_costmaps = tag.parent is not None and tag.parent.name == "node" and program_of(tag.parent) == "move_base"
+        if is_of_costmaps and (message := _unread_by_costmaps(parameters, own_namespace(tag))) is not None:
             yield file, f"{name} " + message
         if (end := _replaced(text, namespace)) is not None:
             yield file, f"{name} has no `{_EXPECTED[end][0]}`, which MoveIt reads from `robot_description{end}`"
@@ -96,7 +96,7 @@ def unread_semantics(source: Source, model: Model) -> Defects:
 
 def _semantics(source: Source) -> Iterator[Attribute]:
     """Yield the names of the parameters with the text of an SRDF."""
-    for tag in _tags(source) if ".srdf" in source.text else ():
+    for tag in tags_of(source) if ".srdf" in source.text else ():
         texts = [tag.attributes[key].value for key in ("textfile", "command") if key in tag.attributes]
         if tag.name == "param" and "name" in tag.attributes and any(".srdf" in text for text in texts):
             yield tag.attributes["name"]
@@ -124,37 +124,21 @@ def _unread_by_costmaps(parameters: Source, namespace: str) -> str | None:
 _LAYERS = frozenset(("obstacle_layer", "inflation_layer", "static_layer", "voxel_layer", "obstacles_layer", "inflater"))
 
 
-def _program(tag: Tag) -> str:
+def program_of(tag: Tag) -> str:
+    """Return the ``type`` of a node; empty without one."""
     return tag.attributes["type"].value if "type" in tag.attributes else ""
 
 
-def _own_namespace(tag: Tag) -> str:
+def own_namespace(tag: Tag) -> str:
+    """Return the namespace that an element itself sets; empty without one."""
     return tag.attributes["ns"].value.strip("/") if "ns" in tag.attributes else ""
-
-
-def unloaded_pipelines(source: Source, model: Model) -> Defects:
-    """Yield the values of ``default_planning_pipeline`` that no ROS 1 launch file loads."""
-    if "default_planning_pipeline" not in source.text:
-        return
-    texts = [uncommented(file) for file in ros1_files(model)]
-    names = [at[1] for text in texts for at in re.finditer(r"planning_pipelines\b/?([^\"'\s<>/]*)", text)]
-    spaces = [_namespace(tag) for file in ros1_files(model) for tag in _tags(file) if "ns" in tag.attributes]
-    nested = [at[1] for space in spaces if (at := re.search(r"planning_pipelines/([^/]+)", space)) is not None]
-    names = [name for name in names if name] + nested if nested else names
-    if not names or any("$" in name or not name for name in names):
-        return
-    for tag in _tags(source):
-        name, value = (tag.attributes.get(key) for key in ("name", "value"))
-        is_default = tag.name == "param" and name is not None and name.value.endswith("default_planning_pipeline")
-        if is_default and value is not None and "$" not in value.value and value.value not in names:
-            yield value, f"planning pipeline `{value.value}` is not loaded; loaded: {', '.join(sorted({*names}))}"
 
 
 def controllers_without_manager(source: Source, model: Model) -> Defects:
     """Yield the files with controllers of MoveIt that a ROS 1 launch file loads if no file names their manager."""
     if any("moveit_controller_manager" in file.text for file in ros1_files(model)):
         return
-    for tag in _tags(source) if "move_group" in source.text else ():
+    for tag in tags_of(source) if "move_group" in source.text else ():
         file = tag.attributes.get("file") if tag.name == "rosparam" and not _is_command(tag) else None
         parameters = parameters_at(file.value, model) if file is not None else None
         if file is not None and parameters is not None and "controller_list:" in uncommented(parameters):
@@ -164,7 +148,7 @@ def controllers_without_manager(source: Source, model: Model) -> Defects:
 
 def unloaded_moveit_files(source: Source, model: Model) -> Defects:
     """Yield the node ``move_group`` of ROS 1 for each file of its package with parameters that no launch file loads."""
-    for tag in _tags(source) if "moveit_ros_move_group" in source.text else ():
+    for tag in tags_of(source) if "moveit_ros_move_group" in source.text else ():
         program = tag.attributes.get("type")
         package = package_of(Path(source.file))
         if tag.name != "node" or program is None or program.value != "move_group" or package is None:
@@ -182,10 +166,10 @@ def unloaded_moveit_files(source: Source, model: Model) -> Defects:
 
 def _replaced_by_others(model: Model) -> Iterator[str]:
     """Yield the ends of the namespaces of MoveIt into which launch files load a wrong file, which is reported there."""
-    for tag in (tag for file in ros1_files(model) for tag in _tags(file)):
+    for tag in (tag for file in ros1_files(model) for tag in tags_of(file)):
         file = tag.attributes.get("file") if tag.name == "rosparam" and not _is_command(tag) else None
         parameters = parameters_at(file.value, model) if file is not None else None
-        if parameters is not None and (end := _replaced(uncommented(parameters), _namespace(tag))) is not None:
+        if parameters is not None and (end := _replaced(uncommented(parameters), namespace_of(tag))) is not None:
             yield end
 
 
@@ -201,7 +185,7 @@ def untimed_pipelines(source: Source) -> Defects:
     """Yield the ``request_adapters`` of a ROS 1 launch file that add no times to the trajectories of OMPL."""
     if "request_adapters" not in source.text:
         return
-    tags = list(_tags(source))
+    tags = list(tags_of(source))
     written = {tag.attributes["name"].value: tag.attributes for tag in tags if "name" in tag.attributes}
     for tag in tags:
         name, adapters = (tag.attributes.get(key) for key in ("name", "value"))
@@ -229,7 +213,7 @@ def _of_argument(value: Attribute | None, written: Mapping[str, Mapping[str, Att
 
 def spawned_while_paused(source: Source, model: Model) -> Defects:
     """Yield the arguments of ``spawn_model`` in a launch file that starts Gazebo paused, if no file unpauses it."""
-    tags = list(_tags(source)) if "paused" in source.text else []
+    tags = list(tags_of(source)) if "paused" in source.text else []
     defaults = actions_of(source).defaults
     is_paused = False
     for tag in tags:
@@ -249,40 +233,19 @@ def spawned_while_paused(source: Source, model: Model) -> Defects:
             yield arguments, "Gazebo starts paused, and controllers wait until it runs; add `-unpause`"
 
 
-def pipelines_elsewhere(source: Source) -> Defects:
-    """Yield the namespaces with planning pipelines in which the node ``move_group`` does not read them."""
-    tags = list(_tags(source)) if "moveit_ros_move_group" in source.text else []
-    nodes = [tag.attributes for tag in tags if tag.name == "node" and _program(tag) == "move_group"]
-    names = {at["name"].value for at in nodes if "name" in at and "ns" not in at}
-    groups = [tag for tag in tags if tag.name == "group" and "ns" in tag.attributes]
-    inner = [tag for tag in groups if tag.attributes["ns"].value.startswith("planning_pipelines")]
-    outer = [tag.parent for tag in inner if tag.parent is not None and "ns" in tag.parent.attributes]
-    spaces = {tag.start: tag.attributes["ns"] for tag in outer if _namespace(tag) == _own_namespace(tag)}
-    for space in (tag.attributes["ns"] for tag in tags if nodes and "ns" in tag.attributes):
-        for part in space.value.split("/"):
-            if part != "planning_pipelines" and nearest(part, ("planning_pipelines",), cutoff=0.9):
-                hint = Suggestion("planning_pipelines", part)
-                yield space, "move_group reads its pipelines from `planning_pipelines`" + hint
-    is_plain = len(names) == 1 and not any("$" in name for name in (*names, *(each.value for each in spaces.values())))
-    for space in spaces.values() if is_plain and len(nodes) == 1 else ():
-        if space.value.strip("/") not in names:
-            (name,) = names
-            message = f"node `{name}` reads planning pipelines from its own namespace" + Suggestion(name, space.value)
-            yield space, message
-
-
 def _is_command(tag: Tag) -> bool:
     """Return whether a <rosparam> does something else than to load its file."""
     command = tag.attributes.get("command")
     return command is not None and command.value != "load"
 
 
-def _tags(source: Source) -> Iterator[Tag]:
+def tags_of(source: Source) -> Iterator[Tag]:
+    """Yield the elements of a launch file."""
     for root in Document(source).roots:
         yield from root.walk()
 
 
-def _namespace(tag: Tag) -> str:
+def namespace_of(tag: Tag) -> str:
     """Return the namespace of an element, with ``robot_description`` for arguments of this name."""
     parts = [each.attributes["ns"].value for each in (tag, *tag.ancestors()) if "ns" in each.attributes]
     return re.sub(r"\$\(arg robot_description\)", "robot_description", "/".join(reversed(parts))).strip("/")

@@ -76,15 +76,14 @@ class LaunchValueInvalid(RobotRule):
         from urdfkit.lint.facts.launch.quoted_names import quoted_arguments
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
         from urdfkit.lint.facts.moveit.planning import meant_plugin
+        from urdfkit.lint.facts.moveit.planning_pipelines import pipelines_elsewhere, unloaded_pipelines
         from urdfkit.lint.facts.moveit.plugin_names import wrong_plugins_in_launch
         from urdfkit.lint.facts.parameters.launch_parameters import launch_parameter_defects
         from urdfkit.lint.facts.parameters.loaded_files import (
             controllers_without_manager,
             loaded_file_defects,
-            pipelines_elsewhere,
             spawned_while_paused,
             unloaded_moveit_files,
-            unloaded_pipelines,
             unread_semantics,
             untimed_pipelines,
         )
@@ -112,7 +111,7 @@ class LaunchValueInvalid(RobotRule):
                 *spawned_while_paused(source, model),
                 *unread_semantics(source, model),
                 *untimed_pipelines(source),
-                *pipelines_elsewhere(source),
+                *pipelines_elsewhere(source, model),
                 *(parameters_out_of_reach(source, model) if version == 1 else ()),
             )
             for attribute, message in found_in_files if version == 1 else ():
