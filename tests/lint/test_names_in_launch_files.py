@@ -147,3 +147,27 @@ def test_a_mecanum_controller_reads_one_of_two_topics(tmp_path: Path, setting: s
     node = f'<node pkg="twist_mux" exec="twist_mux"><remap from="cmd_vel_out" to="/base/{topic}"/></node>'
     (tmp_path / "base.launch.xml").write_text(f"<launch>{node}</launch>")
     assert sum("no node subscribes" in each.text for each in lint(tmp_path)) == count
+
+
+@pytest.mark.parametrize(
+    ("name", "started", "message"),
+    [
+        ("GAZEBO_MODEL_PATH", "ros_gz_sim", "only Gazebo classic reads `GAZEBO_MODEL_PATH`"),
+        ("GZ_SIM_RESOURCE_PATH", "ros_gz_sim", ""),
+        ("IGN_GAZEBO_RESOURCE_PATH", "ros_gz_sim", ""),
+        ("IGN_GAZEBO_RESOURCE_PATH", "gazebo_ros", "Gazebo classic does not read `IGN_GAZEBO_RESOURCE_PATH`"),
+        ("GAZEBO_MODEL_PATH", "gazebo_ros", ""),
+        ("GAZEBO_MODEL_PATH", "rviz2", ""),
+        ("GZ_SIM_RESOURSE_PATH", "ros_gz_sim", "unknown environment variable `GZ_SIM_RESOURSE_PATH`"),
+        ("CART_RESOURCE_PATH", "ros_gz_sim", ""),
+        ('GAZEBO_MODEL_PATH" value="a"/><set_env name="GZ_SIM_RESOURCE_PATH', "ros_gz_sim", ""),
+    ],
+)
+def test_environment_variables(tmp_path, monkeypatch, name, started, message):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cart.urdf").write_text('<robot name="cart"><link name="base"/></robot>')
+    (tmp_path / "package.xml").write_text("<package><name>cart</name></package>")
+    include = f'<include file="$(find-pkg-share {started})/launch/start.launch.py"/>'
+    (tmp_path / "cart.launch.xml").write_text(f'<launch>\n<set_env name="{name}" value="a"/>\n{include}\n</launch>\n')
+    found = [one.message.partition(";")[0] for one in lint(tmp_path / "cart.urdf") if one.code == "L104"]
+    assert found == ([message] if message else [])

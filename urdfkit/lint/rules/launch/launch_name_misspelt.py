@@ -47,6 +47,7 @@ class LaunchNameMisspelt(RobotRule):
     - parameters of nodes of the workspace, if the code of the node does not contain the name
     - namespaces of costmaps, which must be ``local_costmap`` or ``global_costmap``
     - worlds without a path, which must be worlds of Gazebo
+    - environment variables of ROS and Gazebo, also those of another version of Gazebo than the launch files start
 
     Words that differ by more than one letter, or that the file declares as a launch argument, are accepted.
 
@@ -75,6 +76,7 @@ class LaunchNameMisspelt(RobotRule):
         from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
+        from urdfkit.lint.facts.launch.environment_variables import wrong_variables
         from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
         from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
         from urdfkit.lint.facts.parameters.own_parameters import undeclared_parameters
@@ -84,6 +86,9 @@ class LaunchNameMisspelt(RobotRule):
             yield self.at_span(
                 source.span(*place), message + Suggestion(near, undeclared), severity="warning", names=(undeclared,)
             )
+        for source, start, variable, message in wrong_variables(model):
+            span = source.span(start, start + len(variable))
+            yield self.at_span(span, message, severity="warning", kind="variable")
         for source in model.related_files.values():
             is_launch = source.file.endswith(LAUNCH)
             if not is_launch and not source.file.endswith((".yaml", ".yml")):
