@@ -233,3 +233,39 @@ def test_the_section_of_an_own_node_has_its_name(tmp_path, name, section, expect
     (tmp_path / "guard.yaml").write_text(SECTION.replace("guard:", f"{section}:") + more)
     findings = [one for one in lint(tmp_path, target="ros2") if one.code == "L117"]
     assert [(one.file.rpartition("/")[2], one.line) for one in findings] == expected
+
+
+SWERVE = """import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+from std_msgs.msg import Bool, Float64MultiArray
+
+class Swerve(Node):
+    def __init__(self):
+        super().__init__("swerve")
+        self.create_subscription(Twist, "cmd_vel", self.on_command, 1)
+        self.out = self.create_publisher(Float64MultiArray, "wheels/commands", 1)
+"""
+SMOOTHER = """<launch>
+  <node pkg="cart" exec="swerve" name="swerve"/>
+  <node pkg="nav2_velocity_smoother" exec="velocity_smoother" name="velocity_smoother">
+    <remap from="cmd_vel" to="cmd_vel_nav"/>{}
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("output", "message", "lines"),
+    [
+        ("", "Float64MultiArray", [4]),
+        ('\n    <remap from="cmd_vel_smoothed" to="cmd_vel"/>', "Float64MultiArray", []),
+        ("", "Bool", []),  # a node that reads commands but does not drive
+    ],
+)
+def test_the_output_of_a_smoother_that_an_own_drive_does_not_read(tmp_path, output, message, lines):
+    (tmp_path / "cart.urdf").write_text('<robot name="cart"><link name="base_link"/></robot>')
+    (tmp_path / "package.xml").write_text(FILES["package.xml"])
+    (tmp_path / "cart.launch.xml").write_text(SMOOTHER.format(output))
+    (tmp_path / "swerve.py").write_text(SWERVE.replace("(Float64MultiArray", f"({message}"))
+    assert [one.line for one in lint(tmp_path, target="ros2") if one.code == "K980"] == lines

@@ -20,6 +20,7 @@ from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
 from urdfkit.lint.facts.topics.graph import drive_topics, remapped, remaps_groups
 from urdfkit.lint.facts.topics.node_topics import published_commands
+from urdfkit.lint.facts.topics.own_ends import own_ends
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
@@ -108,6 +109,7 @@ def _unmoved_outputs(
         others = sorted(drives if node.package == "twist_mux" else every)
         what = f"; remap it to `{others[0]}`" if len(others) == 1 else ""
         named = Named(node.source.text[slice(*node.place)], node.place[0])
+        named = node.remappings[-1][0] if node.remappings else named
         yield node.source, named, f"no node subscribes to the velocity commands on `{topic}` of this node{what}"
 
 
@@ -194,7 +196,18 @@ def drive_command_topics(model: Model) -> frozenset[str]:
             found.add(text.strip().strip("/"))
     found |= set(drive_topics(model, "command_topic"))
     found |= {topic for topic, kind, is_read in bridged_topics(model) if is_read and "geometry_msgs/msg/Twist" in kind}
-    return frozenset(found)
+    return frozenset(found | _own_drive_topics(model))
+
+
+_OF_JOINTS = ("Float64", "Float64MultiArray", "JointTrajectory", "AckermannDrive", "AckermannDriveStamped")
+"""Messages with which a node of the workspace moves joints."""
+
+
+def _own_drive_topics(model: Model) -> set[str]:
+    """Return the topics on which nodes of the workspace that publish commands for joints read velocity commands."""
+    ends = [end for end in own_ends(model) or [] if end.topic and end.is_launched]
+    moving = {end.path for end in ends if end.publishes and end.type in _OF_JOINTS}
+    return {end.topic for end in ends if not end.publishes and "Twist" in end.type and end.path in moving}
 
 
 def has_drive(model: Model) -> bool:
