@@ -429,6 +429,7 @@ GOOD = [
     ("navigation", MOTION, "my_robot::MotionModel"),
     ("navigation", "OPEN_LOOP", "CLOSED_LOOP"),
     ("navigation", "LaserScan", "PointCloud2"),
+    ("navigation", "width: 3", "robot_radius: 0.0"),
 ]
 
 

@@ -76,6 +76,8 @@ READER = PYTHON.replace("topic, 1)", "'stop', 1)\n        self.create_subscripti
 READER_IN_CPP = CPP.replace("topic_, 1", '"stop", 1').replace(
     "PUBLISHER", 'scan_ = create_subscription<sensor_msgs::msg::LaserScan>("ahead", 1, read);'
 )
+LOADED = '  <load_composable_node target="c"><composable_node pkg="a" plugin="b" name="c"/></load_composable_node>\n'
+SPACED = '  <push_ros_namespace namespace="front"/>\n'
 COMPONENT = '  <node_container pkg="rclcpp_components" exec="component_container"><composable_node/></node_container>\n'
 
 
@@ -88,6 +90,8 @@ COMPONENT = '  <node_container pkg="rclcpp_components" exec="component_container
         ({"guard.py": READER.replace("LaserScan, 'ahead'", "kind, 'ahead'")}, "/front/scan", "", []),
         ({"guard.py": READER}, "/front/scan", '  <node pkg="base_driver" exec="driver"/>\n', []),
         ({"guard.py": READER}, "/front/scan", COMPONENT, []),
+        ({"guard.py": READER}, "/front/scan", LOADED, []),
+        ({"guard.py": READER}, "/front/scan", SPACED, []),
     ],
 )
 def test_the_remapped_input_of_an_own_node_needs_a_publisher(tmp_path, code, topic, more, expected):

@@ -1,6 +1,8 @@
 """Bounding boxes of mesh files by the quick readers are those of all vertices that trimesh reads."""
 
 import io
+import json
+import math
 import random
 import re
 import struct
@@ -17,6 +19,7 @@ from urdfkit.meshes.loader import MeshLoader
 
 FLOAT32 = 1e-6
 """Relative rounding of coordinates in the loader's 32-bit numbers."""
+HALF = math.sqrt(0.5)
 
 
 def mesh(seed: int, subdivisions: int = 1) -> trimesh.Trimesh:
@@ -51,8 +54,7 @@ def written(folder: Path, kind: str, shape: trimesh.Trimesh, angle: float, seed:
     return path
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("subdivisions", [1, 5])
+@pytest.mark.parametrize("subdivisions", [1, pytest.param(5, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("kind", ["stl", "stl text", "obj", "dae", "glb", "glb turned"])
 def test_exact_bounds_are_those_of_the_loader(kind: str, subdivisions: int, tmp_path: Path) -> None:
     for seed in range(3):
@@ -62,6 +64,24 @@ def test_exact_bounds_are_those_of_the_loader(kind: str, subdivisions: int, tmp_
         assert found is not None
         assert np.allclose(found, expected, rtol=FLOAT32, atol=FLOAT32)
         path.unlink()
+
+
+@pytest.mark.parametrize(
+    "rotation", [(0.5, -0.5, 0.5, 0.5), (HALF, 0, 0, HALF), (0, HALF, 0, HALF), (0, 0, HALF, HALF)]
+)
+def test_nodes_of_gltf_are_scaled_turned_and_moved(rotation: tuple[float, ...], tmp_path: Path) -> None:
+    glb = mesh(0).export(file_type="glb")
+    (length,) = struct.unpack_from("<I", glb, 12)
+    document = json.loads(glb[20 : 20 + length])
+    (node,) = (node for node in document["nodes"] if "mesh" in node)
+    node.pop("matrix", None)
+    node |= {"scale": (1, 2, 3), "rotation": rotation, "translation": (4, 5, 6)}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    size = len(glb) - length + len(text)
+    path = tmp_path / "part.glb"
+    path.write_bytes(glb[:8] + struct.pack("<II", size, len(text)) + glb[16:20] + text + glb[20 + length :])
+    assert np.allclose(bounds(path), MeshLoader().load(path).bounds, rtol=FLOAT32, atol=FLOAT32)
 
 
 @pytest.mark.slow

@@ -49,6 +49,16 @@ def test_a_file_that_others_could_read_or_a_link_is_not_trusted(folder, tmp_path
     assert bait.read_text() == "{}"
 
 
+def test_without_a_folder_of_the_login_they_are_in_the_cache_which_is_made_private(tmp_path, monkeypatch) -> None:
+    monkeypatch.delenv("XDG_RUNTIME_DIR", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home" / "cache"))
+    first = tokens_of(7007)
+    folder = tmp_path / "home" / "cache" / "urdfkit"
+    folder.chmod(0o755)
+    assert tokens_of(7007) == first
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
+
+
 def test_where_nothing_can_be_kept_there_is_a_new_key_each_time(tmp_path, monkeypatch) -> None:
     (tmp_path / "urdfkit").write_text("in the way")
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))

@@ -139,6 +139,12 @@ def test_a_scan_with_too_few_intensities_shows_ranges() -> None:
     assert floats(item["values"]) == [2.0, 4.0, 0.5]
 
 
+def test_a_scan_whose_intensities_are_no_numbers_has_the_range_from_0_to_1() -> None:
+    kind = "sensor_msgs/msg/LaserScan"
+    (item,) = drawing(from_fields(kind, {**SCAN, "intensities": [math.nan] * 6}), kind, "intensity")
+    assert (floats(item["values"]), item["range"]) == ([0.0, 0.0, 0.0], [0.0, 1.0])
+
+
 def cloud(points: np.ndarray, *names: str) -> Any:
     """Return a PointCloud2 with the columns as its fields; bytes of colours are in the field rgb."""
     fields = [{"name": name, "offset": 4 * k, "datatype": 7, "count": 1} for k, name in enumerate(names)]
