@@ -147,11 +147,14 @@ PARSERS = {"search", "match", "fullmatch", "findall", "finditer", "sub"}
 """Functions of `re` that read a text by a pattern."""
 SPLITTERS = {"split", "rsplit", "partition", "rpartition", "startswith", "endswith", "removeprefix", "removesuffix"}
 """Methods of a text that read a part of it."""
+SUGGESTIONS = ("Suggestion", "did_you_mean", "near_path")
 
 
 def parsed_messages(code: str) -> list[int]:
     """Return the lines that read a part of the message of an error, finding or repair from its text."""
-    lines = []
+    lines = list[int]()
+    if re.search(r"\.\s*message\b", code) is None:  # most modules, whose syntax tree takes a second together
+        return lines
     for node in ast.walk(ast.parse(code)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             texts = node.args if node.func.attr in PARSERS else [node.func.value] if node.func.attr in SPLITTERS else []
@@ -161,6 +164,8 @@ def parsed_messages(code: str) -> list[int]:
 
 def formatted_suggestions(code: str) -> list[int]:
     """Return the lines that format a suggestion into a text, which is no `DefectMessage` then."""
+    if not any(name in code for name in SUGGESTIONS):
+        return []
     texts = [node for node in ast.walk(ast.parse(code)) if isinstance(node, ast.JoinedStr)]
     calls = [part.value for text in texts for part in text.values if isinstance(part, ast.FormattedValue)]
     return [
@@ -168,7 +173,7 @@ def formatted_suggestions(code: str) -> list[int]:
         for call in calls
         if isinstance(call, ast.Call)
         and isinstance(call.func, ast.Name)
-        and call.func.id in ("Suggestion", "did_you_mean", "near_path")
+        and call.func.id in SUGGESTIONS
     ]
 
 
