@@ -171,9 +171,7 @@ def formatted_suggestions(code: str) -> list[int]:
     return [
         call.lineno
         for call in calls
-        if isinstance(call, ast.Call)
-        and isinstance(call.func, ast.Name)
-        and call.func.id in SUGGESTIONS
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id in SUGGESTIONS
     ]
 
 

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.engine.run import Outcome, run
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 
@@ -16,6 +21,29 @@ def tmp_path(tmp_path: Path) -> Path:
     alone = tmp_path / "own"
     alone.mkdir()
     return alone
+
+
+def is_inside_word(text: str, offset: int) -> bool:
+    return 0 < offset < len(text) and re.fullmatch(r"\w\w", text[offset - 1 : offset + 1]) is not None
+
+
+@pytest.fixture(autouse=True)
+def _findings_are_at_whole_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fail a test with a finding that begins or ends inside of a word of the source; a single character is a point."""
+
+    def checked(*arguments: Any, **options: Any) -> Outcome:
+        outcome = run(*arguments, **options)
+        for finding in outcome.findings:
+            source, path, span = outcome.sources.get(finding.file), outcome.files.get(finding.file), finding.span
+            if source is None and path is not None and path.is_file():
+                source = Source(finding.file, path.read_text("utf-8", errors="replace"))
+            if source is not None:
+                start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+                assert not is_inside_word(source.text, start), finding
+                assert end == start + 1 or not is_inside_word(source.text, end), (finding, source.text[start:end])
+        return outcome
+
+    monkeypatch.setattr("urdfkit.lint.engine.run.run", checked)
 
 
 @pytest.fixture

@@ -20,15 +20,22 @@ _WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w-]+/[\w-]+)[\"'
 
 @record
 class Named:
-    """A name in YAML, and the offset of its first character."""
+    """A name in YAML or a launch file, and the offset of its first character.
+
+    Attributes:
+        name: the name.
+        start: offset of the name, or of the expression that computes it.
+        stop: offset after the expression that computes it; None for a name that is written in the file.
+    """
 
     name: str
     start: int
+    stop: int | None = None
 
     @property
     def end(self) -> int:
         """Offset after its last character."""
-        return self.start + len(self.name)
+        return self.start + len(self.name) if self.stop is None else self.stop
 
 
 def typed(source: Source) -> Iterator[Named]:

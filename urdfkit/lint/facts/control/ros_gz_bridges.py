@@ -158,4 +158,4 @@ def _bridged(at: re.Match[str], offsets: Sequence[int]) -> Bridged:
         Named(at[group], offsets[at.end(group) - 1] + 1 - len(at[group])) for group in (1, 2, 3, 4)
     )
     direction = {"[": "GZ_TO_ROS", "]": "ROS_TO_GZ"}.get(way.name, "BIDIRECTIONAL")
-    return Bridged(topic, ros, gazebo, Named(direction, way.start))
+    return Bridged(topic, ros, gazebo, Named(direction, way.start, way.end))

@@ -111,9 +111,15 @@ def _nodes_in(text: str) -> tuple[Node, ...]:
     return tuple(node for document in documents_in(text)[0] for node in walk(document))
 
 
+_PROPERTIES = re.compile(r"(?:[&!]\S*[ \t]+)+(?=\S)")
+"""Matches the anchor and the tag of a node in YAML."""
+
+
 def start_of(source: Source, node: Node) -> int:
-    """Return the start offset of a node; after the opening quote of a quoted scalar."""
+    """Return the start offset of a node; after the opening quote of a quoted scalar, and after anchor and tag."""
     start = source.offset(node.line, node.column)
+    properties = _PROPERTIES.match(source.text, start)
+    start = properties.end() if properties is not None else start
     return start + (source.text[start : start + 1] in ("'", '"'))
 
 

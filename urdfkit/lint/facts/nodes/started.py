@@ -295,7 +295,7 @@ def _literal(source: Source, node: ast.expr, reader: LaunchReader) -> Named | No
         if isinstance(node, ast.Name):
             node = reader.assigned.get(node.id) or node
     if isinstance(node, (ast.BinOp, ast.JoinedStr)) and (text := reader.text(node)):
-        return Named(text, place(source, node)[0])
+        return Named(text, *place(source, node))
     if not isinstance(node, ast.Constant) or not isinstance(node.value, str) or not node.value:
         return None
     start, end = place(source, node)

@@ -185,7 +185,8 @@ def _classes(sources: list[Source], macros: list[ExportedClass], texts: dict[Pat
                 definition = re.search(_defining(last), texts[path])
                 message = f"PLUGINLIB_EXPORT_CLASS is missing for `{kind}`, which `{Path(source.file).name}` describes"
                 if definition is not None:
-                    yield BuildDefect(Source(shown_path(path), texts[path]), definition.start(), last, message)
+                    code = Source(shown_path(path), texts[path])
+                    yield BuildDefect(code, definition.end() - len(last), last, message)
             continue
         described.add(kind)
         if base and macro.base and base != macro.base:

@@ -244,8 +244,9 @@ class BuildFileInconsistent(RobotRule):
             absent = [name for name in names if not files.has(name)]
             if folder in names or not is_folder(files.folder / folder) or nearest(folder, absent) is not None:
                 continue
-            start = max(source.text.find("data_files"), 0)
-            last, place = installs[0].folders[-1] if installs else ("data_files", start)
+            first = re.search(r"data_files", source.text) or re.search(r"\w+|$", source.text)
+            assert first is not None
+            last, place = installs[0].folders[-1] if installs else (first[0], first.start())
             message = f"folder `{folder}` is not installed, but {use}"
             severity: Severity = "note" if is_catkin else "warning"
             yield self._at(source, place, last, message, severity, kind="folder")
