@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from urdfkit.lint import lint
@@ -17,6 +19,15 @@ TOO_LARGE = "inertia of link `base` is too large: radius of gyration 1 m, but it
 def joint(inside: str = "", *, type: str = "revolute", name: str = "elbow", child: str = "arm") -> str:
     links = f'<joint name="{name}" type="{type}"><parent link="base"/><child link="{child}"/>{inside}</joint>'
     return f'{links}<link name="{child}"/>'
+
+
+def axes(count: int, *, without: int) -> str:
+    """Return joints of which the first ones have no axis, with links that have a shape."""
+    joints = (
+        joint("" if k < without else '<axis xyz="0 0 1"/>', type="continuous", name=f"j{k}", child=f"l{k}")
+        for k in range(count)
+    )
+    return re.sub(r'(<link name="l\d+")/>', rf"\1><visual>{BOX}</visual></link>", "".join(joints))
 
 
 def moved(inside: str, *, type: str = "continuous") -> str:
@@ -95,6 +106,18 @@ CASES: list[tuple[str, str, list[str]]] = [
         "I509",
         moved(inertial(1) + f"<visual>{BALL}</visual>"),
         ["warning: inertia of link `arm` is the identity matrix, a placeholder"],
+    ),
+    # axis-missing-on-movable: a warning where the only one of at least four has no axis
+    (
+        "J413",
+        BASE + axes(4, without=1),
+        ["warning: continuous joint `j0` has no <axis> and uses the default, x (1 0 0)"],
+    ),
+    ("J413", BASE + axes(3, without=1), ["note: continuous joint `j0` has no <axis> and uses the default, x (1 0 0)"]),
+    (
+        "J413",
+        BASE + axes(5, without=2),
+        [f"note: continuous joint `j{k}` has no <axis> and uses the default, x (1 0 0)" for k in range(2)],
     ),
     # limits
     ("J405", BASE + limits(1, 1), []),

@@ -13,6 +13,7 @@ from urdfkit.errors import UsageError
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold import computed, load_template
 from urdfkit.scaffold.world.floor_layouts import house, office, one_room
+from urdfkit.scaffold.world.floor_plan import wall_shapes
 from urdfkit.scaffold.world.furniture import PIECES, furnish
 from urdfkit.scaffold.world.obstacles import clutter
 from urdfkit.scaffold.world.random_numbers import Random
@@ -27,6 +28,22 @@ KINDS = ("room", "office", "house", "clutter")
 def place(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+def test_walls_leave_out_their_doors_below_the_lintels():
+    walls = one_room(4.0, 3.0, doors=6, door_width=0.8, thickness=0.1).walls
+    shapes = wall_shapes(walls, thickness=0.1, height=2.5, door_width=0.8)
+    for number, wall in enumerate(walls, 1):
+        parts = {
+            kind: [each for each in shapes if each.name.startswith(f"{kind}_{number}_")] for kind in ("wall", "lintel")
+        }
+        along = 1 if wall.axis else 0
+        solid = sum(each.size[along] for each in parts["wall"])
+        assert solid == pytest.approx(wall.end - wall.start - 0.8 * len(wall.doors))
+        assert [each.size[along] for each in parts["lintel"]] == pytest.approx([0.8] * len(wall.doors))
+        assert [each.centre[along] for each in parts["lintel"]] == pytest.approx(wall.doors)
+        tops = {each.centre[2] + each.size[2] / 2 for kind in parts for each in parts[kind]}
+        assert tops == {2.5}
 
 
 def test_doors_of_a_room_are_in_the_middle_of_free_stretches():
