@@ -7,7 +7,7 @@ from math import cos, dist, inf, isfinite, pi, sin
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.geometry import rotate
-from urdfkit.description.urdf.robot import Box, Cylinder, GazeboBlock, Geometry, Pose, SensorTag, Sphere, Vector
+from urdfkit.description.urdf.robot import Box, Cylinder, GazeboBlock, Geometry, Mesh, Pose, SensorTag, Sphere, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number, numbers
 from urdfkit.lint.facts.placement.solids import depth, diagonal, half_sizes, local, turned_back
@@ -39,8 +39,8 @@ _TILT = 0.15
 _NEAR = 1.0
 """Largest distance of a body that blocks a sensor [m]."""
 
-Solid = tuple[str, Geometry, Frame]
-"""Link, shape and the pose of the shape in the root link."""
+Solid = tuple[str, Geometry, Frame, bool]
+"""Link, shape, the pose of the shape in the root link, and whether it is not only around a mesh."""
 
 
 def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str, str | None]]:
@@ -65,18 +65,22 @@ def blocked_sensors(model: Model) -> Iterator[tuple[GazeboBlock, SensorTag, str,
                 and attached.body_of(solid[0]) == attached.body_of(block.reference or "")
                 and dist(solid[2].translation, eye.translation) > _PLACED
             ]
+            shown = [solid for solid in solids if solid[3]]
             around = next(
-                (name for name, shape, at in solids if depth(shape, local(at, eye.translation)) > _INSIDE), None
+                (name for name, shape, at, _ in shown if depth(shape, local(at, eye.translation)) > _INSIDE), None
             )
             if around is not None:
                 yield block, sensor, f"sensor `{sensor.name}` is inside the shape of link `{around}`", "xyz"
                 continue
             rays = _fan(sensor.element) if kind in _LIDARS else [(0.0, 0.0), *_AROUND]
-            hit = [_first(solids, eye, *angles) for angles in rays]
+            hit = [_first(shown, eye, *angles) for angles in rays]
             seen = [name for name in hit if name is not None]
             if len(seen) >= _BLOCKED * len(rays):
                 yield block, sensor, f"sensor `{sensor.name}` faces only the shape of link `{seen[0]}`", None
-            elif kind in _LIDARS and len(seen) >= _FACING * len(rays) and not _sees_any(solids, eye, rays):
+                continue
+            hit = [_first(solids, eye, *angles) for angles in rays] if kind in _LIDARS else []
+            seen = [name for name in hit if name is not None]
+            if kind in _LIDARS and len(seen) >= _FACING * len(rays) and not _sees_any(solids, eye, rays):
                 part = f"{100.0 * len(seen) / len(rays):.0f} % of its view"
                 message = f"sensor `{sensor.name}` faces link `{seen[0]}` in {part}; rotated by 180°, it faces no link"
                 yield block, sensor, message, "rpy"
@@ -87,13 +91,17 @@ _AROUND = ((_TILT, 0.0), (-_TILT, 0.0), (0.0, _TILT), (0.0, -_TILT))
 
 
 def _solids(model: Model) -> Iterator[Solid]:
-    """Yield the boxes, cylinders and spheres that are large enough to block a sensor."""
+    """Yield the boxes, cylinders and spheres that are large enough to block a sensor.
+
+    The collision shapes of a link with meshes stand for these, but may be larger.
+    """
     for link in model.robot.links:
         frame = model.frames.get(link.name)
-        for shape in (link.visuals or link.collisions) if frame is not None else ():
+        has_mesh = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
+        for shape in (link.collisions if has_mesh else link.visuals or link.collisions) if frame is not None else ():
             geometry = shape.geometry
             if frame is not None and isinstance(geometry, (Box, Cylinder, Sphere)) and diagonal(geometry) > _HOUSING:
-                yield link.name, geometry, frame.moved(shape.origin)
+                yield link.name, geometry, frame.moved(shape.origin), not has_mesh
 
 
 def _pose(sensor: Element) -> Pose | None:
@@ -124,7 +132,7 @@ def _sees_any(solids: list[Solid], eye: Frame, rays: list[tuple[float, float]]) 
 def _first(solids: list[Solid], eye: Frame, yaw: float, pitch: float) -> str | None:
     """Return the link that the ray in a direction of the sensor meets first; None if it meets none nearby."""
     direction = rotate(eye.rotation, (cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), -sin(pitch)))
-    found = [(_distance(shape, at, eye.translation, direction), name) for name, shape, at in solids]
+    found = [(_distance(shape, at, eye.translation, direction), name) for name, shape, at, _ in solids]
     distance, name = min(found, default=(inf, ""))
     return name if distance < _NEAR else None
 

@@ -1,6 +1,5 @@
 """Where the frames of joints lie in the shapes of their parent links: on the surface, outside or inside."""
 
-from collections import Counter
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import box_around, rpy_of
@@ -10,13 +9,13 @@ from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import Extent, Frame
 from urdfkit.record import record
 
-_EXACT = 1e-4
+EXACT = 1e-4
 """Largest distance of a joint from the surface of its parent link that counts as zero [m]."""
 
 _FAR, _DEEP = 0.003, 0.005
 """Smallest distances outside and inside of the shape that are a defect [m]."""
 
-_PART = 0.02
+PART = 0.02
 """Smallest part of the size of the parent link that these distances are."""
 
 _DETACHED = 0.1
@@ -27,15 +26,6 @@ _NEARER = 0.1
 
 _OVERLAP = 0.3
 """Smallest part of the child link that is inside of the shape of the parent link of a joint that is too deep."""
-
-_SLENDER = 2.5
-"""Smallest ratio of the length of a tube to its other sizes."""
-
-_ENDS = 2
-"""Smallest number of joints at the ends of their tubes of which one stands out."""
-
-_ALONG = 0.7
-"""Smallest cosine of the angle between an axis and the tube that it turns about."""
 
 _FEWEST = 4
 """Smallest number of joints on the surfaces of their parent links of which one stands out."""
@@ -70,9 +60,9 @@ def misplaced(model: Model) -> Iterator[Place]:
     off: dict[object, Place] = {}
     compared = _compared(model)
     for (joint, parent), below in zip(compared, model.facts.of(depth_of, compared), strict=True):
-        if abs(below) <= _EXACT:
+        if abs(below) <= EXACT:
             continue
-        element = _origin(joint)
+        element = origin_of(joint)
         position = element.origin.position
         if position not in off or abs(below) > abs(off[position].depth):
             off[position] = Place(joint, element, below, parent, model.extents.get(joint.child or ""))
@@ -81,11 +71,11 @@ def misplaced(model: Model) -> Iterator[Place]:
     one = next(iter(off.values()), None)
     if one is None or model.is_unresolved(one.element, "xyz"):
         return
-    if len({_origin(joint).origin.position for joint, _ in compared}) > _FEWEST:
+    if len({origin_of(joint).origin.position for joint, _ in compared}) > _FEWEST:
         size = one.parent.diagonal
         is_in_tube = one.joint.type == "prismatic"  # The stage of a telescope is inside of the one before.
-        is_deep = one.depth >= max(_DEEP, _PART * size) and one.child is not None and not is_in_tube
-        if -one.depth >= max(_FAR, _PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
+        is_deep = one.depth >= max(_DEEP, PART * size) and one.child is not None and not is_in_tube
+        if -one.depth >= max(_FAR, PART * size) or (is_deep and _overlap(one) >= _OVERLAP):
             yield one
 
 
@@ -103,12 +93,12 @@ def on_wrong_side(model: Model) -> Iterator[tuple[Joint, float, int]]:
         gap = max(_gaps(joint.origin.xyz, parent, child))
         if gap < _DETACHED * min(parent.diagonal, child.diagonal) or {joint.parent, joint.child} & meshed:
             continue
-        if model.is_unresolved(_origin(joint), "xyz"):
+        if model.is_unresolved(origin_of(joint), "xyz"):
             continue
         for k in range(3):
             x, y, z = (-part if axis == k else part for axis, part in enumerate(joint.origin.xyz))
             gaps = _gaps((x, y, z), parent, child)
-            if abs(gaps[k]) <= _EXACT and max(gaps) <= _NEARER * gap:
+            if abs(gaps[k]) <= EXACT and max(gaps) <= _NEARER * gap:
                 yield joint, gap, k
 
 
@@ -116,54 +106,6 @@ def _gaps(offset: Vector, parent: Extent, child: Extent) -> list[float]:
     """Return the gaps between the boxes of two links along each axis [m]; negative where they overlap."""
     sides = zip(offset, parent.low, parent.high, child.low, child.high, strict=True)
     return [max(at + low - outer, inner - at - high) for at, inner, outer, low, high in sides]
-
-
-def along_tubes(model: Model) -> Iterator[tuple[Joint, Element, float, float]]:
-    """Yield the joint that is not at the end of the tube that carries it: joint, ``<origin>``, its place, the length.
-
-    A tube is a slender link that starts at its own frame and carries one moving link. Yields the only such joint, if it
-    is as far along its tube as the next tube is long, or if it carries a tube, does not turn about the axis of its
-    own tube and several others are at the ends of theirs.
-    """
-    tubes = {link: tube for link, extent in model.extents.items() if (tube := _tube(extent)) is not None}
-    carried = Counter(joint.parent for joint in model.robot.joints if joint.is_movable)
-    meshed = {link.name for _, _, link in model.meshes}
-    ends: set[object] = set()
-    off: dict[object, tuple[Joint, Element, float, float]] = {}
-    for joint in model.robot.joints:
-        tube = tubes.get(joint.parent or "")
-        is_turning = joint.type in ("revolute", "continuous")
-        if tube is None or not is_turning or carried[joint.parent] != 1 or joint.parent in meshed:
-            continue
-        axis, end = tube
-        if any(abs(part) > _EXACT for k, part in enumerate(joint.origin.xyz) if k != axis):
-            continue
-        element, place = _origin(joint), joint.origin.xyz[axis]
-        if abs(place - end) <= _EXACT:
-            ends.add(element.origin.position)
-        elif abs(place - end) > _PART * abs(end) and not model.is_unresolved(element, "xyz"):
-            off.setdefault(element.origin.position, (joint, element, abs(place), abs(end)))
-    if len(off) != 1:
-        return
-    [(joint, element, place, length)] = off.values()
-    own = tubes.get(joint.child or "")
-    is_length_of_next = own is not None and abs(abs(own[1]) - place) <= _EXACT
-    carrier = tubes[joint.parent or ""]
-    is_folding = own is not None and abs(joint.axis[carrier[0]]) < _ALONG
-    if place > 0.0 and (is_length_of_next or (is_folding and len(ends) >= _ENDS)):
-        yield joint, element, place, length
-
-
-def _tube(extent: Extent) -> tuple[int, float] | None:
-    """Return the axis and the end of a slender link that starts at its own frame; None for other links."""
-    sizes = [high - low for low, high in zip(extent.low, extent.high, strict=True)]
-    axis = max(range(3), key=sizes.__getitem__)
-    low, high = extent.low[axis], extent.high[axis]
-    others = [k for k in range(3) if k != axis]
-    is_centred = all(abs(extent.low[k] + extent.high[k]) <= _PART * sizes[axis] for k in others)
-    if not is_centred or sizes[axis] < _SLENDER * max(sizes[k] for k in others) or min(abs(low), abs(high)) > _EXACT:
-        return None
-    return axis, high if abs(high) > abs(low) else low
 
 
 def _compared(model: Model) -> list[tuple[Joint, Extent]]:
@@ -192,10 +134,11 @@ def depth_of(joint_and_parent: tuple[Joint, Extent]) -> float:
 def _is_centred(joint: Joint, model: Model) -> bool:
     """Return whether a joint is in the middle of its child link, so that it is not where both links touch."""
     child = model.extents.get(joint.child or "")
-    return child is not None and depth((0.0, 0.0, 0.0), child) > _PART * child.diagonal
+    return child is not None and depth((0.0, 0.0, 0.0), child) > PART * child.diagonal
 
 
-def _origin(joint: Joint) -> Element:
+def origin_of(joint: Joint) -> Element:
+    """Return the ``<origin>`` of a joint; the joint without one."""
     return joint.element.find("origin") or joint.element
 
 

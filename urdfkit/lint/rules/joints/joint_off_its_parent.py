@@ -13,10 +13,10 @@ class JointOffItsParent(RobotRule):
     parent link, if at least four other joints are exactly on the surface of the boxes of their parent links. A
     telescope stage on a prismatic joint may be inside.
 
-    Also reports a joint on the axis of a slender link that is not at the end of this link, if it is the only such
-    joint. In addition, two other joints must be at the ends of slender links, or the joint must be as far along its
-    parent link as its child link is long. Also reports a fixed joint whose links are apart, but would meet exactly with
-    the opposite sign of one coordinate.
+    Also reports a joint on the axis of a slender link that is not at the end of this link, if it is the only such joint
+    and two other joints are at the ends of slender links. A joint that is as far along its parent link as its child
+    link is long, or at the end with the opposite sign, is always reported. So is a fixed joint whose links are apart,
+    but would meet exactly with the opposite sign of one coordinate.
 
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually
@@ -76,7 +76,8 @@ class JointOffItsParent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the only joint that is not at the surface of its parent link."""
-        from urdfkit.lint.facts.placement.joint_places import along_tubes, misplaced, on_wrong_side
+        from urdfkit.lint.facts.placement.joint_places import misplaced, on_wrong_side
+        from urdfkit.lint.facts.placement.tube_ends import along_tubes
 
         if model.is_incomplete:
             return
@@ -95,6 +96,7 @@ class JointOffItsParent(RobotRule):
                 message = f"joint `{joint.name}` is {distance:.3g} m along `{joint.parent}`, "
                 message += f"not at its end, at {length:.3g} m"
                 help = "check which length the origin is computed with"
+                help = "check the sign of the origin" if distance < 0.0 else help
                 names = tuple(name for name in (joint.child, joint.parent) if name)
                 yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
                 found.add(joint.name)

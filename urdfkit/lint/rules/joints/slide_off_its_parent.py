@@ -8,7 +8,7 @@ from urdfkit.lint.facts.root_cause import parent_at
 from urdfkit.lint.model.placement import Extent, Frame
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
-_PART = 0.1
+_PART = 0.05
 """Smallest gap between the links at a limit, as a part of the stroke."""
 
 _RAIL = 3.0
@@ -24,7 +24,7 @@ class SlideOffItsParent(RobotRule):
 
     ## What it does
     Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if the boxes
-    touch with the joint at zero but are at least 10 % of the stroke apart at a limit. In addition, one of two
+    touch with the joint at zero but are at least 5 % of the stroke apart at a limit. In addition, one of two
     conditions must hold:
 
     - With exactly one other axis of the joint frame, the boxes would touch at both limits.
