@@ -268,11 +268,12 @@ MOVEIT = """moveit_simple_controller_manager:
     [
         ("", "[elbow, wrist]", "[elbow, wrist]", "{wrist: {goal: 0.1}}", None, 0),
         ("", "[elbow]", "[elbow, wrist]", "{wrist: {goal: 0.1}}", "K976", 7),
+        ("", "\n      - elbow", "[elbow, wrist]", "{elbow: {goal: 0.1}, wrist: {goal: 0.1}}", "K976", 8),
         ("", "[elbow]", "[elbow]", "{wrist: {goal: 0.1}}", "K976", 10),
         ("elbow", "[elbow]", "[elbow]", "{elbow: {goal: 0.1}}", None, 0),
         ("elbow", "[elbow, wrist]", "[elbow]", "{elbow: {goal: 0.1}}", "K965", 7),
     ],
-    ids=["right", "left out", "too much", "mimic", "mimic listed"],
+    ids=["right", "left out", "left out after another", "too much", "mimic", "mimic listed"],
 )
 def test_a_list_of_joints_that_the_other_files_contradict_has_one_finding(
     tmp_path, mimic, joints, moved, constraints, code, line

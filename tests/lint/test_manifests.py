@@ -232,3 +232,22 @@ def test_the_old_name_of_a_package_is_reported_where_it_is_written(tmp_path, mon
     assert found("ros_ign_bridge", "ros_gz_bridge") == [("sim.launch.xml", 2, 12, unknown)]
     assert found("ros_gz_bridge", "ros_gz_bridge") == []
     assert found("ros_ign_bridge", "ros_ign_bridge") == []
+
+
+@pytest.mark.parametrize(
+    ("written", "message"),
+    [
+        ("moveit_simple_controllers_manager", "unknown dependency `moveit_simple_controllers_manager`"),
+        ("moveit_simple_controller_manager", ""),
+        ("moveit_planners", "missing dependency on `moveit_simple_controller_manager`"),
+    ],
+)
+def test_a_dependency_that_differs_by_a_plural(tmp_path, monkeypatch, written, message):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="a"/></robot>')
+    (tmp_path / "arm.launch.xml").write_text(
+        '<launch><node pkg="moveit_simple_controller_manager" exec="a" name="a"/></launch>\n'
+    )
+    (tmp_path / "package.xml").write_text(manifest("arm_description", written))
+    found = [(each.file, each.message.partition(";")[0]) for each in lint(tmp_path) if each.code == "K956"]
+    assert found == ([("package.xml", message)] if message else [])

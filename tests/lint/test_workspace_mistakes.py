@@ -31,8 +31,11 @@ FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot has drive 
 NEVER = "the reason is `Never`, but a joint connects links `turret` and `boom` write `Adjacent`"
 URDF = "titan_description/urdf/titan.urdf.xacro"
 OUTSIDE_PARENT = (
-    "joint `joint_3` is 0.25 m outside of its parent link `upper_arm_link`; "
+    "joint `joint_3` is 0.5 m outside of its parent link `upper_arm_link`; "
     "all other moving joints are at their parent links check the axes, signs and units of the origin"
+)
+OPPOSITE_END = (
+    "joint `joint_3` is -0.25 m along `upper_arm_link`, not at its end, at 0.25 m check the sign of the origin"
 )
 STROKE = (
     "joint `joint_3` slides from -2.4 to 2.4 m, but the whole robot extends 1.09 m "
@@ -42,7 +45,8 @@ CYLINDER = "the inertia of link `left_wheel_link` is that of a cylinder with rad
 MISTAKES = [
     (ARM, URDF, '"joint_2" type', '"joint_1" type', 67, "T207", "duplicate joint `joint_1`"),
     (ARM, URDF, '"world_joint" type', '"joint_1" type', 37, "T207", "duplicate joint `joint_1`"),
-    (ARM, URDF, 'xyz="0 0 0.25"', 'xyz="0 0 -0.25"', 100, "J421", OUTSIDE_PARENT),
+    (ARM, URDF, 'xyz="0 0 0.25"', 'xyz="0 0 -0.25"', 100, "J427", OPPOSITE_END),
+    (ARM, URDF, 'xyz="0 0 0.25"', 'xyz="0 0 -0.5"', 100, "J421", OUTSIDE_PARENT),
     (ARM, URDF, '"joint_3" type="revolute"', '"joint_3" type="prismatic"', 102, "J422", STROKE),
     (
         ROVER,

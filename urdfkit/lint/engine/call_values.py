@@ -67,6 +67,8 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
         _literal(finding, model, sources)
         or _trail(_written(finding, model) if finding.chains else None)
         or _trail(_only_call(finding, calls[finding.code, finding.span], model) if finding.chains else None)
+        if finding.kind != "swapped"  # Two values are right, but in each other's place.
+        else ()
         for finding in findings
     ]
     for finding, trail in zip(findings, trails, strict=True):

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, package_of
+from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, neighbours, package_of
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
@@ -97,10 +97,10 @@ def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[Packag
             yield PackageUse(source, builder.start(), builder.end() - 1, described[1], use, is_own=True)
 
 
-_DEPENDENCY = r"<(exec_depend|run_depend|depend)\b[^>]*>\s*([^<\s]+)\s*</\1>"
+_DEPENDENCY = r"<(exec_depend|run_depend|build_depend|depend)\b[^>]*>\s*([^<\s]+)\s*</\1>"
 
 
-def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool) -> Span | None:
+def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool, tag: str) -> Span | None:
     """Return the element in package.xml after which a dependency is to be added; None without a package.xml.
 
     It is added to the package that uses it. Where any package of the robot may have it, a package is preferred that
@@ -111,6 +111,7 @@ def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool) -> 
         used_in: the file that uses it, as shown to the user.
         model: the linted model.
         is_own: whether only the package that uses it can have it.
+        tag: the element that is missing, such as ``exec_depend``.
     """
     from urdfkit.lint.facts.ros_packages import RENAMED
 
@@ -129,14 +130,36 @@ def place_of_dependency(name: str, used_in: str, model: Model, is_own: bool) -> 
     others = sorted((each for each in found if each[1] and not is_own), key=lambda each: -each[1])
     manifest = manifest or next((source for _, _, source in others), None)
     manifest = manifest or next((source for is_user, _, source in found if is_user), None)
-    return _place_in(manifest, name) if manifest is not None else None
+    return _place_in(manifest, name, tag) if manifest is not None else None
 
 
-def _place_in(manifest: Source, name: str) -> Span:
+def plural_dependency(name: str, used_in: str, model: Model) -> tuple[Span, str] | None:
+    """Return the dependency of the package of a file that differs from a missing one by the plural of a word only.
+
+    Such a name can be another package, but not where no package has it and the other one is missing.
+    """
+    from urdfkit.lint.facts.ros_packages import names
+
+    own = package_of(Path(used_in))
+    near = {*names(), *(neighbours(own) if own is not None else ())}
+    for file, source in model.related_files.items():
+        if file.endswith("package.xml") and Path(file).absolute().parent == own:
+            for each in re.finditer(_DEPENDENCY, source.text):
+                if each[2] != name and each[2] not in near and _singular(each[2]) == _singular(name):
+                    return source.span(*each.span(2)), each[2]
+    return None
+
+
+def _singular(name: str) -> list[str]:
+    return [word.removesuffix("s") for word in name.split("_")]
+
+
+def _place_in(manifest: Source, name: str, tag: str) -> Span:
     """Return the dependency before the place of a new one: by the alphabet if it orders them, else the last one."""
     text = re.sub(r"(?s)<!--.*?-->", lambda comment: " " * len(comment[0]), manifest.text)
     entries = list(re.finditer(_DEPENDENCY, text))
-    entries = [each for each in entries if each[1] != "depend"] or entries
+    kinds = ("depend", "build_depend") if tag == "depend" else ("exec_depend", "run_depend")
+    entries = [each for each in entries if each[1] in kinds] or entries
     names = [each[2] for each in entries]
     if not entries:
         end = text.rfind("</package>")

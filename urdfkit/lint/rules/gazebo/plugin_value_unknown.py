@@ -16,8 +16,8 @@ class PluginValueUnknown(RobotRule):
     ## What it does
     Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers, divisors
     that are negative or zero, vectors of the wrong length, and flags that are neither true nor false. Also checks the
-    ``<output_type>`` of the ray sensor plugin of gazebo_ros, the form ``from:=to`` of each ``<remapping>``, and the
-    spelling of ``<robotSimType>``.
+    ``<output_type>`` of the ray sensor plugin of gazebo_ros, the form ``from:=to`` of each ``<remapping>``, the topic
+    that remappings of sensors replace, and the spelling of ``<robotSimType>``.
 
     ## Why is this bad?
     The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation
@@ -74,3 +74,14 @@ class PluginValueUnknown(RobotRule):
                 yield self.at(model, child, f"unknown robotSimType `{text}`" + meant(text, _SIM_TYPES)[1])
             elif child.tag == "remapping" and ":=" not in text:
                 yield self.at(model, child, f"remapping `{text}` is not of the form `from:=to`")
+            elif child.tag == "remapping" and plugin.filename in _WITH_ONE_TOPIC:
+                old, _, new = text.partition(":=")
+                old = old.strip()
+                if old.rpartition("/")[2] not in ("out", "vel"):
+                    message = f"this plugin has no topic `{old}`, so the remapping has no effect; write `~/out:=…`"
+                    names = (new.strip().strip("/"),)
+                    yield self.at(model, child, message, severity="warning", kind="remapping", names=names)
+
+
+_WITH_ONE_TOPIC = tuple(f"libgazebo_ros_{name}_sensor.so" for name in ("ray", "imu", "gps"))
+"""Plugins of ROS 2 that publish on ``~/out``, and the GPS sensor on ``~/vel`` too (gazebo_plugins, 3.5)."""

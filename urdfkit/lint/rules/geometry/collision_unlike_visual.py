@@ -1,9 +1,10 @@
 """G620 collision-unlike-visual."""
 
-from math import dist, inf, prod
+from math import dist, inf, log10, prod
 
 from urdfkit.description.urdf.geometry import box_around, box_around_all
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Sphere, Vector
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Link, Mesh, Pose, Sphere, Vector
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.twins import decimal_slip
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -91,9 +92,33 @@ class CollisionUnlikeVisual(RobotRule):
                 place = shape.find(part) or shape
                 if part != "origin" and geometry is not None and geometry.children:
                     place = geometry.children[0]
+                scaled = _scaled(link, visuals, collisions)
+                if scaled is not None:
+                    mesh, message = scaled
+                    help = "check the scale"
+                    yield self.at(model, mesh, message, attribute="scale", link=link.name, help=help)
+                    continue
                 yield self.at(
                     model, place, f"collision shape of link `{link.name}` {message}", link=link.name, help=help
                 )
+
+
+def _scaled(link: Link, visuals: Shapes, collisions: Shapes) -> tuple[Element, str] | None:
+    """Return the only mesh of a link whose scale is wrong by a power of ten, with the message; None if it is not."""
+    mesh = link.visuals[0].geometry
+    if len(visuals) != 1 or not isinstance(mesh, Mesh) or mesh.scale == (1.0, 1.0, 1.0):
+        return None
+    boxes = [box_around_all([box_around(*each) for each in group]) for group in (visuals, collisions)]
+    sizes = [sorted(high - low for low, high in zip(*box, strict=True)) for box in boxes]
+    factors = [a / max(b, 1e-9) for a, b in zip(*sizes, strict=True)]
+    power = 10.0 ** round(log10(max(factors[2], 1e-9)))
+    geometry = link.visuals[0].element.find("geometry")
+    if power == 1.0 or any(abs(factor - power) > _ROUND * power for factor in factors):
+        return None
+    if geometry is None or not geometry.children:
+        return None
+    message = f"visual mesh of link `{link.name}` is {power:g} times as large as the collision shape"
+    return geometry.children[0], message
 
 
 def _of_wheel(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:

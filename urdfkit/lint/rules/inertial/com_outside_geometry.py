@@ -79,7 +79,7 @@ class ComOutsideGeometry(RobotRule):
                 continue
             distance = extent.outside(inertial.origin.xyz)
             yield from self._off_centre(model, link, extent)
-            yield from self._mirrored(model, link)
+            yield from self._mirrored(model, link, extent)
             if distance > max(
                 (TOLERANCE if link.visuals else TOLERANCE_WITHOUT_VISUALS) * extent.diagonal, MIN_TOLERANCE
             ):
@@ -95,7 +95,7 @@ class ComOutsideGeometry(RobotRule):
                     else "copy the <origin> of the shape to <inertial>",
                 )
 
-    def _mirrored(self, model: Model, link: Link) -> Findings:
+    def _mirrored(self, model: Model, link: Link, extent: Extent) -> Findings:
         """Yield a finding for a centre of mass that is that of a shape with the other sign of one coordinate."""
         inertial, shapes = link.inertial, shapes_of(link)
         if inertial is None or len({shape.origin.xyz for shape in shapes}) < 2:
@@ -107,6 +107,16 @@ class ComOutsideGeometry(RobotRule):
             opposite = [k for k, (a, b) in enumerate(pairs) if abs(a) > MIN_TOLERANCE and abs(a + b) <= SAME * abs(a)]
             if len(opposite) == 1 and sum(abs(a - b) <= same for a, b in pairs) == 2:
                 origin, k = inertial.element.find("origin"), opposite[0]
+                others = [
+                    pose.xyz[k] for other, (_, pose) in zip(shapes, extent.shapes, strict=False) if other is not shape
+                ]
+                if others and all(abs(other - centre[k]) < 0.2 * abs(centre[k]) for other in others):
+                    kind = "collision" if shape in link.collisions else "visual"
+                    message = f"{kind} shape of link `{link.name}` has {'xyz'[k]} = {-centre[k]:g} m, but its other "
+                    message += f"shape and its centre of mass have {'xyz'[k]} = {centre[k]:g} m"
+                    place, help = shape.element.find("origin") or shape.element, "check the sign of the <origin>"
+                    yield self.at(model, place, message, attribute="xyz", link=link.name, help=help)
+                    return
                 message = f"centre of mass of link `{link.name}` has {'xyz'[k]} = {centre[k]:g} m, "
                 message += f"but the centre of the shape has {'xyz'[k]} = {-centre[k]:g} m"
                 help = "check the sign of the <origin> of <inertial>"

@@ -52,7 +52,8 @@ class LimitLowerAboveUpper(RobotRule):
                 attribute = "lower" if limit.lower is not None else "upper"
                 help = "swap the limits or correct their signs"
                 fix = _swapped(limit, model)
-                kind = "" if fix else "computed"
+                # With zero as the upper limit, the two are swapped, and no value of a property is wrong.
+                kind = "" if fix else "swapped" if upper == 0.0 else "computed"
                 yield self.at(
                     model, limit.element, message, attribute=attribute, joint=joint.name, help=help, fix=fix, kind=kind
                 )

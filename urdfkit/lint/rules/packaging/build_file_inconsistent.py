@@ -56,6 +56,13 @@ _FIND = r"\$\(find\s+([\w-]+)\)/([\w-]+/[^\s\"'<>$(){}]+)"
 _DESTINATIONS = ("share", "lib", "bin", "include", "etc", "libexec", "python", "launch", "config", "meshes")
 
 
+_BEFORE_PACKAGE = (
+    *("project", "find_package", "catkin_python_setup", "generate_messages", "generate_dynamic_reconfigure_options"),
+    *("add_message_files", "add_service_files", "add_action_files"),
+)
+"""Commands before ``catkin_package()``."""
+
+
 class BuildFileInconsistent(RobotRule):
     """CMakeLists.txt or setup.py contradicts the package, or lacks the folders that launch files use.
 
@@ -178,7 +185,10 @@ class BuildFileInconsistent(RobotRule):
         for tool, call in (("catkin", "catkin_package"), ("ament_cmake", "ament_package")):
             is_called = any(nearest(name, [call, "ament_auto_package"], cutoff=0.8) for name in called)
             if tool in found and project is not None and not is_called:
-                yield self._at(source, every[-1].start, every[-1].name, f"CMakeLists.txt does not call {call}()")
+                # catkin_package() comes before the targets, ament_package() at the end.
+                before = [each for each in every if each.name in _BEFORE_PACKAGE] if tool == "catkin" else every
+                start = source.text.find(")", max([before[-1].start, *(at for _, at in before[-1].words)]))
+                yield self._at(source, start, ")", f"CMakeLists.txt does not call {call}()")
 
     def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""

@@ -71,7 +71,8 @@ class ControllerJointForeign(RobotRule):
                 # A joint that no robot has is reported where it is listed.
                 is_complete = set(names) <= model.robot.joint_by_name.keys()
                 left_out = _left_out(one, names, model) if names and is_complete else set()
-                for key in (key for key, value in one.group.entries if value is listed and left_out):
+                if listed is not None and left_out:
+                    key = _place_before(one, listed, left_out)
                     lacking = ", ".join(f"`{name}`" for name in sorted(left_out))
                     message = f"`joints` of `{one.name}` lacks {lacking}, which its other settings and MoveIt have"
                     named = (*sorted(left_out), one.name)
@@ -85,6 +86,19 @@ class ControllerJointForeign(RobotRule):
                             yield self.at_span(
                                 span_of(source, inner), message + hint, names=(inner.text,), kind="foreign"
                             )
+
+
+def _place_before(one: ControllerSettings, listed: Node, left_out: set[str]) -> Node:
+    """Return the joint in a list after which a joint is missing by the order of the constraints or gains."""
+    orders = [
+        [key.text for key, value in group.entries if value.kind == "group"]
+        for name in ("constraints", "gains")
+        if (group := one.group.find(name)) is not None
+    ]
+    order = next((each for each in orders if left_out <= {*each}), [])
+    missing = min((order.index(name) for name in left_out), default=0)
+    before = [item for item in listed.items if item.text in order[:missing]]
+    return before[-1] if before else listed.items[0]
 
 
 def _left_out(one: ControllerSettings, names: list[str], model: Model) -> set[str]:

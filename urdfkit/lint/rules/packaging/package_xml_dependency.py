@@ -99,12 +99,19 @@ class PackageXmlDependency(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each use of a package without a dependency, with its place in package.xml."""
-        from urdfkit.lint.facts.plugin_packages import place_of_dependency
+        from urdfkit.lint.facts.plugin_packages import place_of_dependency, plural_dependency
 
         for finding in self._uses(model):
-            name = finding.names[0] if finding.help is not None and finding.help.startswith("add <") else ""
-            place = place_of_dependency(name, finding.file, model, finding.kind == "own") if name else None
-            if place is None:
+            added = re.match(r"add <(\w+)>", finding.help or "")
+            name = finding.names[0] if added is not None else ""
+            is_own, tag = finding.kind == "own", added[1] if added is not None else ""
+            place = place_of_dependency(name, finding.file, model, is_own, tag) if name else None
+            plural = plural_dependency(name, finding.file, model) if name else None
+            if plural is not None:
+                span, written = plural
+                message = f"unknown dependency `{written}`" + Suggestion(name, written)
+                yield self.at_span(span, message, names=(name,))
+            elif place is None:
                 yield finding
             else:
                 cause = {"other": place, "is_other_wrong": True, "cause": f"package {name}"}
@@ -331,7 +338,8 @@ class PackageXmlDependency(RobotRule):
             message = f"unknown package `{name}`" + Suggestion(meant, name)
             return self.at_span(span, message, severity="error", cause=f"package {name}", kind="misspelt")
         message = f"missing dependency on `{name}`"
-        help = f"add <exec_depend>{name}</exec_depend> to package.xml"
+        tag = "depend" if source.file.endswith("CMakeLists.txt") else "exec_depend"
+        help = f"add <{tag}>{name}</{tag}> to package.xml"
         return self.at_span(span, message, help=help, kind="own", names=(name,))
 
 
