@@ -10,6 +10,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint import lint
 from urdfkit.lint.facts.control.parameter_values import value_defects
 from urdfkit.lint.facts.control.yaml_tree import documents, nodes
+from urdfkit.lint.facts.moveit.settings import integer_limits
 from urdfkit.lint.facts.navigation.defects import navigation_defects
 from urdfkit.lint.facts.navigation.sections import costmaps_not_nested, nodes_without_parameters, outside_parameters
 from urdfkit.lint.facts.parameters.ranges import out_of_order, out_of_range
@@ -158,6 +159,17 @@ def test_a_wrong_parameter_is_reported(text: str, old: str, new: str, expected: 
 def test_nodes_may_be_nested_in_a_namespace_with_parameters() -> None:
     nested = "robot:\n  ros__parameters: {rate: 5.0}\n  ekf:\n    ros__parameters: {frequency: 30.0}\n"
     assert messages(nested) == []
+
+
+def test_integers_of_moveit_are_reported_where_it_reads_limits() -> None:
+    text = """joint_limits:
+  j1: {has_velocity_limits: true, max_velocity: 2, max_acceleration: 3.0, samples: 4}
+  j2: {has_velocity_limits: false, max_velocity: 2}
+  j3: {max_position: 1, min_position: -1}
+cartesian_limits: {max_trans_vel: 1, order: 2}
+"""
+    found = [(value.line, name) for value, name in integer_limits(Source("joint_limits.yaml", text))]
+    assert found == [(2, "max_velocity"), (4, "max_position"), (4, "min_position"), (5, "max_trans_vel")]
 
 
 SMOOTHER = """velocity_smoother:
