@@ -103,6 +103,12 @@ def test_wrong_paths_are_refused_in_a_line(place, capsys, text, message):
     assert message in refusal(capsys, "retime", "arm.urdf", "path.csv", "--acceleration", "5")
 
 
+@pytest.mark.parametrize("limits", ["5,6", "elbow=1,elbow=2", "=5"])
+def test_each_limit_has_one_name(place, capsys, limits):
+    line = refusal(capsys, "retime", "arm.urdf", "path.csv", "--acceleration", limits)
+    assert f"`{limits.rpartition(',')[2]}` must be VALUE or NAME=VALUE, each name once" in line
+
+
 def test_a_simulated_robot_follows_the_motion(place, capsys):
     assert main(["retime", "arm.urdf", "path.csv", "--acceleration", "5", "-o", "m.csv"]) == 0
     duration = np.loadtxt("m.csv", delimiter=",", skiprows=1)[-1, 0]

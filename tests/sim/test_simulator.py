@@ -353,3 +353,6 @@ def test_a_servo_keeps_to_the_effort_limit_of_its_joint() -> None:
         arm.motors.servo(joint, stiffness=1e6, damping=1.0, position=1.0, effort=effort)
         arm.step()
         assert arm.state.effort(joint) == pytest.approx(expected)
+    arm.motors.exert(joint, 1.5)
+    arm.step()
+    assert arm.state.effort(joint) == pytest.approx(0.5 * most + 1.5)
