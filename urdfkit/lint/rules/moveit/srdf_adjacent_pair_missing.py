@@ -31,6 +31,9 @@ class SrdfAdjacentPairMissing(RobotRule):
     - the only pair of a limb, with one link in between, that is not disabled although its counterpart on the other side
       of the robot is disabled
 
+    If the SRDF disables the child link together with another link as adjacent, and the joint of the other side of the
+    robot has this link as its parent, the finding is at the parent link of the joint.
+
     SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are not checked.
 
     ## Why is this bad?
@@ -106,6 +109,16 @@ class SrdfAdjacentPairMissing(RobotRule):
                 written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
                 severity = severity_for(root, model)
                 wrong_side = parent_at(model, joint) if confused is not None else None
+                twin = _twin_at(confused, joint, model) if confused is not None else None
+                if twin is not None and wrong_side is not None:
+                    message = f"joint `{joint.name}` has the parent link `{joint.parent}`, but that of "
+                    message += f"`{twin.name}` is `{twin.parent}`, and the SRDF disables the collisions of "
+                    message += f"`{twin.parent}` and `{joint.child}` as adjacent links"
+                    help = f"write `{twin.parent}`"
+                    yield self.at_span(
+                        wrong_side, message, severity_for(root, model), help=help, joint=joint.name, names=names
+                    )
+                    continue
                 help = f"add {written}"
                 yield self.at(model, near, message, help=help, severity=severity, names=names, other=wrong_side)
 
@@ -118,6 +131,17 @@ def _adjacent(model: Model, solid: set[str], disabled: dict[frozenset[str], Elem
         if joint.parent in solid and joint.child in solid
     ]
     return adjacent, [(joint, pair) for joint, pair in adjacent if pair not in disabled]
+
+
+def _twin_at(pair: frozenset[str], joint: Joint, model: Model) -> Joint | None:
+    """Return the counterpart of a joint on the other side if its parent link is in a pair with the child link."""
+    from urdfkit.lint.facts.twins import mirrored
+
+    twins = (model.robot.joint_by_name.get(name) for name in mirrored(joint.name))
+    return next(
+        (twin for twin in twins if twin is not None and pair == {twin.parent, joint.child} and twin.parent is not None),
+        None,
+    )
 
 
 def _links(pair: Element) -> tuple[str, str]:

@@ -195,6 +195,8 @@ class SrdfGroupInconsistent(RobotRule):
         from urdfkit.lint.facts.twins import mirrored
 
         passive = {element.get("name") or "": element for element in root.find_all("passive_joint")}
+        if any(name not in model.robot.joint_by_name for name in passive):
+            return  # The unknown joint may be the counterpart.
         within = {joint for name in groups(root) for joint in joints_of(name, root, model.robot) or ()}
         for name, element in passive.items():
             for other in mirrored(name):
