@@ -197,7 +197,11 @@ def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path
             "share",
             "5: folder `launch` is installed to `share`, but its files are looked up in",
         ),
-        ("(DIRECTORY", "(FILES", "4: install(FILES) does not install folder `launch`; write install(DIRECTORY …)"),
+        (
+            "(DIRECTORY launch urdf",
+            "(FILES launch urdf",
+            "4: install(FILES) does not install folders `launch`, `urdf`; write install(DIRECTORY …)",
+        ),
         ("share/${PROJECT_NAME}", "lib/cart", "5: folder `launch` is installed to `lib/cart`, but its files are"),
         ("install(PROGRAMS scripts/wait.py DESTINATION lib/${PROJECT_NAME})\n", "", "4: `scripts/wait.py` is not"),
         ("(DIRECTORY", "(DIRECTROY", "4: unknown argument `DIRECTROY` of install(); did you mean `DIRECTORY`?"),

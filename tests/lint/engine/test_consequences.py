@@ -32,6 +32,13 @@ CASES = {
     ),
     "value beyond a limit": (finding("M107", "beyond the limit"), finding("M106", "duplicate state"), False),
     "parameter of the SRDF": (finding("L110", "not from `a`"), finding("L104", "unknown name", kind="name"), True),
+    "huge mesh in another link": (
+        finding("G604", "1000 m", link="a"),
+        finding("S909", "a, b", 9, names=("a", "b")),
+        True,
+    ),
+    "huge mesh elsewhere": (finding("G604", "1000 m", link="c"), finding("S909", "a, b", 9, names=("a", "b")), False),
+    "huge mesh in a footprint": (finding("G604", "1000 m", link="a"), finding("K979", "1 m", 9, kind="size"), True),
     "package": (
         finding("K973", "named `a`", kind="name", names=("a", "b")),
         finding("M111", "unknown package `b`", 9, names=("b",)),

@@ -99,10 +99,13 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
         ):
             continue
         end = next((at for at, word in enumerate(words) if word in OPTIONS), len(words))
-        for word, start in command.words[1:end] if words[0] != "DIRECTORY" else ():
-            if is_folder(Path(source.file).parent / word):
-                message = f"{command.name}({words[0]}) does not install folder `{word}`; write install(DIRECTORY …)"
-                yield BuildDefect(source, start, word, message)
+        listed = command.words[1:end] if words[0] != "DIRECTORY" else ()
+        folders = [(word, start) for word, start in listed if is_folder(Path(source.file).parent / word)]
+        if folders:
+            names = "folder " if len(folders) == 1 else "folders "
+            names += ", ".join(f"`{word}`" for word, _ in folders)
+            message = f"{command.name}({words[0]}) does not install {names}; write install(DIRECTORY …)"
+            yield BuildDefect(source, folders[0][1], folders[0][0], message)
         others = [word for word in words if word.startswith("${") and word[2:-1] not in _CATKIN]
         if "DESTINATION" not in words and "TYPE" not in words and not others:
             yield BuildDefect(source, command.start, command.name, f"{command.name}({words[0]}) has no DESTINATION")

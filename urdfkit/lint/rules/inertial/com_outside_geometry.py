@@ -79,8 +79,9 @@ class ComOutsideGeometry(RobotRule):
                 continue
             distance = extent.outside(inertial.origin.xyz)
             yield from self._off_centre(model, link, extent)
-            yield from self._mirrored(model, link, extent)
-            if distance > max(
+            mirrored = list(self._mirrored(model, link, extent))
+            yield from mirrored
+            if not mirrored and distance > max(
                 (TOLERANCE if link.visuals else TOLERANCE_WITHOUT_VISUALS) * extent.diagonal, MIN_TOLERANCE
             ):
                 origin = inertial.element.find("origin")
