@@ -1,4 +1,6 @@
-"""Joints and passive joints that differ from those of the other side of the robot: one finding, at the mistake."""
+"""Joints whose parent links the SRDF contradicts, and missing passive joints: one finding, at the mistake."""
+
+from itertools import pairwise
 
 import pytest
 
@@ -38,7 +40,9 @@ def found(tmp_path, monkeypatch):
     def findings(robot, srdf):
         (tmp_path / "loader.urdf").write_text(robot)
         (tmp_path / "config" / "loader.srdf").write_text(srdf)
-        return [(each.code, each.file, each.line) for each in lint(".", select=("M104", "M105", "M110"))]
+        return [
+            (each.code, each.file, each.line) for each in lint(".", select=("M102", "M104", "M105", "M107", "M110"))
+        ]
 
     return findings
 
@@ -55,6 +59,29 @@ def test_a_wrong_pair_is_reported_in_the_srdf(found):
     line = SRDF[: SRDF.index(pair)].count("\n") + 1
     wrong = SRDF.replace(pair, pair.replace("trailer", "base"))
     assert found(ROBOT, wrong) == [("M110", "config/loader.srdf", line)]
+
+
+ARM = f"""<robot name="loader">
+{"".join(map(LINK.format, ("base", "shoulder", "upper", "fore", "hand", "tip")))}
+{JOINT.format("shoulder", "base", 0, 0)}{JOINT.format("upper", "shoulder", 1, 0)}{JOINT.format("fore", "upper", 1, 0)}
+{JOINT.format("hand", "fore", 1, 0)}{JOINT.format("tip", "hand", 1, 0)}</robot>"""
+CHAIN = ("base", "shoulder", "upper", "fore", "hand", "tip")
+VALUES = "".join(f'<joint name="{link}_joint" value="0"/>' for link in CHAIN[1:])
+SRDF_OF_ARM = f"""<robot name="loader">
+<group name="arm"><chain base_link="base" tip_link="tip"/></group>
+<group_state name="home" group="arm">{VALUES}</group_state>
+{"".join(PAIR.format(*pair) for pair in pairwise(CHAIN))}</robot>"""
+
+
+@pytest.mark.parametrize(("ear", "place"), [("", "loader.urdf"), ("ear", "config/loader.srdf")])
+def test_a_parent_that_leaves_a_link_of_the_arm_without_children_is_reported_at_the_joint(ear, place, found):
+    robot = (
+        ARM.replace("</robot>", f'<link name="{ear}"/>' + JOINT.format(ear, "upper", 0, 1) + "</robot>") if ear else ARM
+    )
+    assert not found(robot, SRDF_OF_ARM)
+    wrong = robot.replace('parent link="upper"/><child link="fore"', 'parent link="shoulder"/><child link="fore"')
+    assert {file for _, file, _ in found(wrong, SRDF_OF_ARM)} == {place}
+    assert len(found(wrong, SRDF_OF_ARM)) == 1
 
 
 def test_an_unknown_passive_joint_is_the_missing_counterpart(found):

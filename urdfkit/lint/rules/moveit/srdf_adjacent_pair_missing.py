@@ -31,8 +31,9 @@ class SrdfAdjacentPairMissing(RobotRule):
     - the only pair of a limb, with one link in between, that is not disabled although its counterpart on the other side
       of the robot is disabled
 
-    If the SRDF disables the child link together with another link as adjacent, and the joint of the other side of the
-    robot has this link as its parent, the finding is at the parent link of the joint.
+    If the SRDF disables the child link together with another link as adjacent, the finding is at the parent link of the
+    joint in two cases: the joint of the other side of the robot has the other link as its parent, or the other link is
+    carried by the same parent and carries nothing.
 
     SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are not checked.
 
@@ -85,7 +86,9 @@ class SrdfAdjacentPairMissing(RobotRule):
                     continue
                 message = f"links `{missed[0]}` and `{missed[1]}` {reason}, but their collisions are not disabled"
                 help = f'add <disable_collisions link1="{missed[0]}" link2="{missed[1]}" reason="Default"/>'
-                yield self.at(model, near, message, help=help, severity=severity_for(root, model), names=missed)
+                yield self.at(
+                    model, near, message, help=help, severity=severity_for(root, model), names=missed, kind="pair"
+                )
             # Other rules report a pair that names one link twice, or a link that does not exist.
             wrong = [each for each in disabled if len(each) < 2 or not each <= links]
             missing = [(joint, pair) for joint, pair in missing if not any(pair & each for each in wrong)]
@@ -109,18 +112,21 @@ class SrdfAdjacentPairMissing(RobotRule):
                 written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
                 severity = severity_for(root, model)
                 wrong_side = parent_at(model, joint) if confused is not None else None
-                twin = _twin_at(confused, joint, model) if confused is not None else None
-                if twin is not None and wrong_side is not None:
-                    message = f"joint `{joint.name}` has the parent link `{joint.parent}`, but that of "
-                    message += f"`{twin.name}` is `{twin.parent}`, and the SRDF disables the collisions of "
-                    message += f"`{twin.parent}` and `{joint.child}` as adjacent links"
-                    help = f"write `{twin.parent}`"
+                reason = _why_parent(confused, joint, model) if confused is not None else ""
+                if confused is not None and reason and wrong_side is not None:
+                    [right] = confused - {joint.child or ""}
+                    message = f"joint `{joint.name}` has the parent link `{joint.parent}`, but the SRDF disables the "
+                    message += f"collisions of `{right}` and `{joint.child}` as adjacent links, and {reason}"
+                    severity, names = severity_for(root, model), (*names, *_joint_to(right, model))
+                    help = f"write `{right}`"
                     yield self.at_span(
-                        wrong_side, message, severity_for(root, model), help=help, joint=joint.name, names=names
+                        wrong_side, message, severity, help=help, joint=joint.name, names=names, kind="parent"
                     )
                     continue
                 help = f"add {written}"
-                yield self.at(model, near, message, help=help, severity=severity, names=names, other=wrong_side)
+                yield self.at(
+                    model, near, message, help=help, severity=severity, names=names, other=wrong_side, kind="pair"
+                )
 
 
 def _adjacent(model: Model, solid: set[str], disabled: dict[frozenset[str], Element]) -> tuple[list[Pair], list[Pair]]:
@@ -133,15 +139,31 @@ def _adjacent(model: Model, solid: set[str], disabled: dict[frozenset[str], Elem
     return adjacent, [(joint, pair) for joint, pair in adjacent if pair not in disabled]
 
 
-def _twin_at(pair: frozenset[str], joint: Joint, model: Model) -> Joint | None:
-    """Return the counterpart of a joint on the other side if its parent link is in a pair with the child link."""
+def _why_parent(pair: frozenset[str], joint: Joint, model: Model) -> str:
+    """Return why the parent link of a joint is wrong and a pair of the SRDF with its child link right; else empty.
+
+    The counterpart of the joint on the other side has the other link of the pair as its parent, or this link has the
+    same parent as the child link and carries nothing.
+    """
     from urdfkit.lint.facts.twins import mirrored
 
-    twins = (model.robot.joint_by_name.get(name) for name in mirrored(joint.name))
-    return next(
-        (twin for twin in twins if twin is not None and pair == {twin.parent, joint.child} and twin.parent is not None),
-        None,
-    )
+    robot = model.robot
+    if joint.child not in pair:
+        return ""
+    [right] = pair - {joint.child}
+    twins = (robot.joint_by_name.get(name) for name in mirrored(joint.name))
+    twin = next((twin for twin in twins if twin is not None and twin.parent == right), None)
+    if twin is not None:
+        return f"joint `{twin.name}` has the parent link `{right}` too"
+    carriers = [each for each in robot.joints if each.child == right and each.parent == joint.parent]
+    if carriers and carriers[0].is_movable and not robot.children_of.get(right):
+        return f"`{right}` carries no link"
+    return ""
+
+
+def _joint_to(link: str, model: Model) -> tuple[str, ...]:
+    """Return the name of the joint that carries a link."""
+    return tuple(joint.name for joint in model.robot.joints if joint.child == link)
 
 
 def _links(pair: Element) -> tuple[str, str]:
