@@ -23,9 +23,9 @@ NODELETS = """<launch>
         ("cloud_xyz ", "cloud_xyzz ", 3, "package `depth_image_proc` has no nodelet `point_cloud_xyzz`"),
         ('"load depth_image_proc/point_cloud_xyz manager"', '"load"', 3, "`load` needs the class of the nodelet"),
         ('"nodelet" name="cloud"', '"nodelets" name="cloud"', 3, "package `nodelet` has no executable `nodelets`"),
-        ('value="20"', 'value="20.0"', 4, "`20.0` is no value of type `int`, so roslaunch stops"),
-        ('value="1.5e-1"', 'value="1.5 m"', 5, "`1.5 m` is no value of type `double`, so roslaunch stops"),
-        ('value="False"', 'value="no"', 6, "`no` is no value of type `bool`, so roslaunch stops"),
+        ('value="20"', 'value="20.0"', 4, "`20.0` is not a value of type `int`, so roslaunch stops"),
+        ('value="1.5e-1"', 'value="1.5 m"', 5, "`1.5 m` is not a value of type `double`, so roslaunch stops"),
+        ('value="False"', 'value="no"', 6, "`no` is not a value of type `bool`, so roslaunch stops"),
     ],
 )
 def test_a_wrong_nodelet_or_parameter_is_reported(tmp_path, old, new, line, message):

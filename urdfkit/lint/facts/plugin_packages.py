@@ -86,7 +86,7 @@ def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[Packag
         for match in _USE.finditer(source.text):
             line = source.text[source.text.rfind("\n", 0, match.start()) + 1 : match.start()]
             if "#" not in line and "<!--" not in line:
-                yield PackageUse(source, match.start(), match.end(), _MOVEIT[match[1]], "whose plugin this file names")
+                yield PackageUse(source, match.start(), match.end(), _MOVEIT[match[1]], "whose plugin this file uses")
         builder = _BUILDER.search(source.text)
         assistant = package / ".setup_assistant"
         if builder is None or ".robot_description(" in source.text or not assistant.is_file():

@@ -50,7 +50,7 @@ class PluginFilenameMalformed(RobotRule):
                 continue
             if "::" in name:
                 message = f"plugin file name `{name}` is the name of a class"
-                help = "write the file name of the library; the class belongs into the attribute name"
+                help = "write the file name of the library; the class belongs in the attribute `name`"
                 yield self.at(model, plugin.element, message, attribute="filename", help=help)
                 continue
             corrected = "".join(name.split())

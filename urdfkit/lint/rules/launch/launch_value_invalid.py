@@ -209,7 +209,7 @@ def _parameter(
 ) -> Iterator[tuple[Attribute, str]]:
     value, kind = attributes.get("value"), attributes["type"].value.strip().lower() if "type" in attributes else "auto"
     if value is not None and "$(" not in value.value and not _is_of_type(value.value, kind):
-        yield value, f"`{value.value}` is no value of type `{kind}`, so roslaunch stops"
+        yield value, f"`{value.value}` is not a value of type `{kind}`, so roslaunch stops"
     for name in ("value", "textfile", "command"):
         attribute = attributes.get(name)
         if attribute is None:

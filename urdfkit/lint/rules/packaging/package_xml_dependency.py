@@ -232,7 +232,7 @@ class PackageXmlDependency(RobotRule):
                 if name not in needed and not is_in_metapackage(name, needed):
                     needed.add(name)
                     span = span_of(source, controller.kind)
-                    message = f"missing dependency on `{name}`, whose controller `{controller.name}` is"
+                    message = f"missing dependency on `{name}`, which provides the type of controller `{controller.name}`"
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
                     yield self.at_span(span, message, help=help, names=(name,))
 
@@ -251,7 +251,7 @@ class PackageXmlDependency(RobotRule):
                     needed.add(name)
                     span = source.span(*uses[name].span(1))
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                    message = f"missing dependency on `{name}`, whose plugin this file names"
+                    message = f"missing dependency on `{name}`, whose plugin this file uses"
                     yield self.at_span(span, message, help=help, names=(name,))
 
     def _check_simulated_control(self, model: Model) -> Findings:

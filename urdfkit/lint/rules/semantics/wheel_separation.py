@@ -96,5 +96,5 @@ class WheelSeparation(RobotRule):
         widths = [dist(left.place, right.place) for left, right in zip(drive.left, drive.right, strict=True)]
         for pair, value in further(model, drive, "wheel_separation"):
             if abs(widths[pair] - widths[0]) < 0.01 * widths[0] and abs(value[0] - separation) > TOLERANCE * separation:
-                comparison = f"the first pair of wheels is equally far apart and has {separation:g} m"
+                comparison = f"the first pair of wheels is equally far apart, and its value is {separation:g} m"
                 yield mismatch(self, model, drive, value, actual=separation, comparison=comparison)
