@@ -65,7 +65,7 @@ def findings(folder: Path, code: str, *depends: str, interface: str = "position"
 )
 def test_packages_of_controllers_are_dependencies(tmp_path, depends, is_missing):
     found = [(each.line, one.message) for one in findings(tmp_path, "K956", *depends) for each in one.related]
-    message = "missing dependency on `joint_trajectory_controller`, which provides the type of controller `arm_controller`"
+    message = "missing dependency on `joint_trajectory_controller`, which provides controller `arm_controller`"
     assert found == ([(3, message)] if is_missing else [])
 
 

@@ -232,7 +232,7 @@ class PackageXmlDependency(RobotRule):
                 if name not in needed and not is_in_metapackage(name, needed):
                     needed.add(name)
                     span = span_of(source, controller.kind)
-                    message = f"missing dependency on `{name}`, which provides the type of controller `{controller.name}`"
+                    message = f"missing dependency on `{name}`, which provides controller `{controller.name}`"
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
                     yield self.at_span(span, message, help=help, names=(name,))
 
