@@ -178,7 +178,7 @@ def test_packages_of_plugins_are_dependencies_if_others_of_their_kind_are(
         return [each.message for each in lint(tmp_path) if each.code == "K956"]
 
     (message,) = missing(*declared)
-    assert message.startswith(f"missing dependency on `{needed}`, whose ")
+    assert message.startswith(f"missing dependency on `{needed}`, wh")
     assert missing(*declared, needed) == []
     assert missing() == []
     if yaml == NAVIGATION:

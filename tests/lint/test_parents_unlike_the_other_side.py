@@ -84,6 +84,23 @@ def test_a_parent_that_leaves_a_link_of_the_arm_without_children_is_reported_at_
     assert len(found(wrong, SRDF_OF_ARM)) == 1
 
 
+MESSAGE = "joint `{}_joint` has the parent link `{}`, but the SRDF disables the "
+PAIR_OF_SRDF = "collisions of `{}` and `{}` as adjacent links, and "
+
+
+def test_the_reasons_why_a_parent_is_wrong(found):
+    wheel, part = 'parent link="trailer"/><child link="rear_left"', 'parent link="upper"/><child link="fore"'
+    found(ROBOT.replace(wheel, wheel.replace("trailer", "base")), SRDF)
+    [one] = lint(".", select=("M110",))
+    pair = PAIR_OF_SRDF.format("trailer", "rear_left")
+    reason = "joint `rear_right_joint` has the parent link `trailer` too"
+    assert one.message == MESSAGE.format("rear_left", "base") + pair + reason
+    found(ARM.replace(part, part.replace("upper", "shoulder")), SRDF_OF_ARM)
+    [one] = lint(".", select=("M110",))
+    pair = PAIR_OF_SRDF.format("upper", "fore")
+    assert one.message == MESSAGE.format("fore", "shoulder") + pair + "`upper` carries no link"
+
+
 def test_an_unknown_passive_joint_is_the_missing_counterpart(found):
     line = SRDF[: SRDF.index("rear_right_joint")].count("\n") + 1
     wrong = SRDF.replace("rear_right_joint", "rear_wheel_of_the_right_joint")

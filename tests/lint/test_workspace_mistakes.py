@@ -85,7 +85,7 @@ MISTAKES = [
         "",
         0,
         "K956",
-        "file names",
+        "file uses",
     ),
     (
         ROVER,
