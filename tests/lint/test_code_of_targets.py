@@ -125,6 +125,7 @@ CORE = CMAKE[CMAKE.index("add_library(core") : CMAKE.index("ament_target_depende
         ("", {}, ["8: no target compiles `src/core.cpp`, but target `part` uses its header `cart/core.hpp`"]),
         (" src/core.cpp", {}, []),
         (" ${sources}", {}, []),
+        (")\nament_auto_add_library(core SHARED src/core.cpp", {}, []),
         ("", {"src/core.cpp": '#include "cart/core.hpp"\nint main() { return 0; }\n'}, []),
         ("", {"src/core.cpp": "double speed() { return 1.0; }\n"}, []),
     ],

@@ -96,6 +96,7 @@ def test_a_cycle_of_dependencies_is_reported_once(tmp_path, monkeypatch):
         ),
         ('gazebo_model_paht="${prefix}/.."', ["unknown attribute `gazebo_model_paht` of <gazebo_ros>"]),
         ('plugin_path="${prefix}/lib"', []),
+        ('gazebo_media_path="${prefix}/installed"', []),
     ],
 )
 def test_exported_paths_of_gazebo(tmp_path, monkeypatch, export, messages):
@@ -104,7 +105,8 @@ def test_exported_paths_of_gazebo(tmp_path, monkeypatch, export, messages):
     (tmp_path / "worlds").mkdir()
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.8)\nproject(arm_description)\nfind_package(ament_cmake REQUIRED)\n"
-        "install(DIRECTORY worlds DESTINATION share/${PROJECT_NAME})\nament_package()\n"
+        "install(DIRECTORY worlds DESTINATION share/${PROJECT_NAME})\n"
+        "install(DIRECTORY worlds/ DESTINATION share/${PROJECT_NAME}/installed)\nament_package()\n"
     )
     text = manifest("arm_description").replace("<export>", f"<export><gazebo_ros {export}/>")
     assert "<gazebo_ros" in text

@@ -395,7 +395,7 @@ MISTAKES = [
         2,
         "no world file of these packages has a world `default`",
     ),
-    (ROS2, "config/bridge.yaml", "/cart/odo", "/trolley/odo", "K969", 7, "no launch file spawns a model `trolley`"),
+    (ROS2, "config/bridge.yaml", "/cart/odo", "/cart_1/odo", "K969", 7, "no launch file spawns a model `cart_1`"),
     (ROS2, "config/nav2.yaml", "local: true", "local: false", "K982", 20, "`map_server` publishes the map before this"),
     (
         ROS2,

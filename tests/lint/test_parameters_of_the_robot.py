@@ -25,6 +25,9 @@ def found(folder, parameters, **files):
         ("track_width: 0.7", ["`track_width` is 0.7 m, but the wheels are 0.3 m apart"]),
         ("wheel_base: 0.3", []),  # in some packages the distance of the left and the right wheel
         ("wheel_radius: 0.0", []),
+        ("wheel_radius: 50.0", []),  # millimetres
+        ("wheel_diameter: 3.94", []),  # inches
+        ("track_width: 300.0", []),
         ("wheel_radius: $(arg radius)", []),
         ("drive_wheel_radius: 0.5", ["`drive_wheel_radius` is 0.5 m, but the radius of the wheels is 0.05 m"]),
         ("left_thigh_length: 0.3", []),
@@ -33,6 +36,7 @@ def found(folder, parameters, **files):
         ("thigh_length: 0.1215", []),
         ("legs: [left, right]\nleg_y: [-0.05, 0.05]", ["`leg_y` is -0.05 m for `left`, which is at y = 0.05 m"]),
         ("legs: [left, right]\nleg_y: [0.04, -0.06]", []),  # both are unknown places
+        ("gripper_length: 0.3", []),
         ("wheels: [front_left, front_right]\nspeeds: [0.1, 0.1]", []),
     ],
 )

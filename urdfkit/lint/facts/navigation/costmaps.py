@@ -99,7 +99,7 @@ def costmap_defects(model: Model) -> Defects:
     yield from _late(model, every)
 
 
-_KEEPING_MAPS = ("nav2_map_server", "slam_toolbox")
+_SENDING_ONCE = ("nav2_map_server",)
 """Packages whose nodes publish the map once for present and later subscribers."""
 
 
@@ -109,7 +109,7 @@ def _late_map(model: Model, each: Costmap) -> Defects:
         flag = layer.find("map_subscribe_transient_local")
         if flag is None or flag.text not in _FALSE:
             continue
-        sender = next((node.program for node in launched_nodes(model) if node.package in _KEEPING_MAPS), None)
+        sender = next((node.program for node in launched_nodes(model) if node.package in _SENDING_ONCE), None)
         if sender is not None:
             message = f"`{sender}` publishes the map before this layer subscribes, and the layer does not get it"
             yield each.source, flag, f"{message}; write true"

@@ -11,7 +11,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
-from urdfkit.lint.facts.packaging.targets import CODE, Target, included, linked
+from urdfkit.lint.facts.packaging.targets import ADDING, CODE, Target, included, linked
 from urdfkit.lint.facts.ros_packages import is_slip
 
 
@@ -54,7 +54,8 @@ def uncompiled_files(
     words = [word for target in own.values() for word, _ in target.added.words[1:]]
     if any("$" in word and "TARGET_OBJECTS" not in word for word in words):
         return  # a variable may name more files
-    if any(command.name in _ADDING_FILES for command in every):
+    others = (name for name in (command.name for command in every) if re.fullmatch(_OTHER_TARGETS, name))
+    if any(name not in ADDING for name in others) or any(command.name in _ADDING_FILES for command in every):
         return
     compiled = {path.stem for target in own.values() for path in target.sources}
     for target in own.values():
@@ -71,6 +72,9 @@ def uncompiled_files(
                 message = f"no target compiles `{name}`, but target `{target.name}` uses its header `{header}`"
                 yield BuildDefect(source, target.added.start, target.added.name, message)
 
+
+_OTHER_TARGETS = r".*add_(?:library|executable|module|nodelet)"
+"""Matches commands that define targets, such as those of ament_cmake_auto and catkin_simple."""
 
 _ADDING_FILES = ("target_sources", "add_subdirectory", "include", "aux_source_directory", "qt5_wrap_cpp")
 

@@ -30,7 +30,11 @@ _MOST_SKID = 2.0
 _SIZE = r"(?:drive_|driven_)?wheel_(radius|diameter)"
 _TRACK = r"track|track_?width|wheel_(?:track|separation|distance)|separation_between_wheels"
 _BASE = r"wheel_?base|axle_(?:distance|separation)"
-_SEGMENT = r"(?:length_of_)?([a-z]+(?:_[a-z]+)*?)_(?:length|len)"
+_SEGMENT = r"(thigh|shank|calf|tibia|femur|coxa|(?:upper|lower)_(?:arm|leg)|forearm|boom|stick|jib)_(?:length|len)"
+"""Matches lengths of the segments of limbs; the length of a hand or gripper can be that to its tool frame."""
+
+_UNITS = (100.0, 1000.0, 1.0 / 0.0254)
+"""Factors of wheels in centimetres, millimetres and inches, as some drivers read them."""
 
 _SIDES = frozenset(
     (
@@ -70,7 +74,8 @@ def _of_wheels(name: str, number: float, wheels: list[Wheel], model: Model) -> s
     if size is not None:
         radii = [radius for wheel in wheels for radius in _radii(wheel, model) if radius > 0.0]
         factor = 2.0 if size[1] == "diameter" else 1.0
-        if not radii or any(abs(number - factor * radius) <= _TOLERANCE * factor * radius for radius in radii):
+        sizes = [unit * factor * radius for radius in radii for unit in (1.0, *_UNITS)]
+        if not radii or any(abs(number - each) <= _TOLERANCE * each for each in sizes):
             return ""
         return f"`{name}` is {number:g} m, but the {size[1]} of the wheels is {factor * radii[0]:.6g} m"
     is_track, is_base = (re.fullmatch(pattern, name) is not None for pattern in (_TRACK, _BASE))
@@ -85,7 +90,8 @@ def _of_wheels(name: str, number: float, wheels: list[Wheel], model: Model) -> s
     distances = sides if is_track else lengths
     most = _MOST_SKID if len(wheels) > 2 and is_track else 1.0 + _TOLERANCE
     accepted = [*distances, *(sides if is_base else ())]
-    if not distances or any(each / (1.0 + _TOLERANCE) <= number <= most * each for each in accepted):
+    numbers = (number, *(number / unit for unit in _UNITS))
+    if not distances or any(each / (1.0 + _TOLERANCE) <= one <= most * each for each in accepted for one in numbers):
         return ""
     return f"`{name}` is {number:g} m, but the wheels are {distances[-1]:.6g} m apart"
 

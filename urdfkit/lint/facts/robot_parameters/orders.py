@@ -34,7 +34,7 @@ def wrong_orders(model: Model) -> Iterator[tuple[Source, Node, str]]:
         (key, value.items)
         for _, group in (groups_of_nodes(model) if lists else ())
         for key, value in group.entries
-        if len(value.items) > 1
+        if len(value.items) > 1 and group.find("type") is None  # MoveIt's controllers get joints by name
     ]
     for source, name, items in lists:
         names = [item.text for item in items]
