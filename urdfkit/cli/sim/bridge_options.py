@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 ROSBRIDGE_PORT, FOXGLOVE_PORT = 9090, 8765
 
 
-def add_bridges(parser: argparse.ArgumentParser) -> None:
-    """Add the options."""
-    group = parser.add_argument_group("bridges to other programs (the simulation then runs in real time)")
+def add_bridges(parser: argparse.ArgumentParser, *, note: str = "") -> None:
+    """Add the options; `note` follows the titles of their groups."""
+    group = parser.add_argument_group(f"bridges to other programs{note}")
     group.add_argument(
         "--rosbridge",
         nargs="?",
@@ -44,7 +44,7 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
         metavar="ORIGIN",
         help="accept web pages from this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
     )
-    add_ros(parser)
+    add_ros(parser, note=note)
 
 
 def bridge_options(arguments: argparse.Namespace) -> BridgeOptions:

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from urdfkit.app.simulation.bridging.ros_connection import RosOptions
 
 
-def add_ros(parser: argparse.ArgumentParser) -> None:
-    """Add the options."""
-    group = parser.add_argument_group("ROS (the simulation then runs in real time)")
+def add_ros(parser: argparse.ArgumentParser, *, note: str = "") -> None:
+    """Add the options; `note` follows the title of their group."""
+    group = parser.add_argument_group(f"ROS{note}")
     group.add_argument(
         "--ros2",
         action="store_true",

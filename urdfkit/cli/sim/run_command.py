@@ -62,7 +62,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_record(parser)
     add("--save-world", metavar="FILE", help="write the final world without the robot as SDF")
-    add_bridges(parser)
+    add_bridges(parser, note=" (the simulation then runs in real time)")
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"

@@ -15,8 +15,8 @@ class JointOffItsParent(RobotRule):
 
     Also reports a joint on the axis of a slender link that is not at the end of this link, if it is the only such joint
     and two other joints are at the ends of slender links. A joint that is as far along its parent link as its child
-    link is long, or at the end with the opposite sign, is always reported. So is a fixed joint whose links are apart,
-    but would meet exactly with the opposite sign of one coordinate.
+    link is long, or at the end with the opposite sign, is always reported. Fixed joints are reported if their links are
+    apart, but would meet exactly with the opposite sign of one coordinate.
 
     ## Why is this bad?
     The child link floats or is sunk in its parent link, and all frames further along the chain are misplaced. Usually

@@ -4,7 +4,7 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ParameterTypeWrong(RobotRule):
-    """A ROS 2 parameter has another type than the node declares, such as an integer for a number with a decimal point.
+    """A ROS 2 parameter does not have the type that its node declares, such as an integer for a floating-point number.
 
     ## What it does
     Compares the numbers in the parameters of ros2_controllers, Nav2 and robot_localization, and in the joint limits of
