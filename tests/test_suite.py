@@ -80,7 +80,7 @@ def test_signals_are_handled_as_in_a_terminal_unless_ignored() -> None:
 @pytest.mark.slow
 def test_the_times_of_several_processes_come_together(tmp_path: Path) -> None:
     file = tmp_path / "times.txt"
-    command = run(tmp_path / "test_two.py", "def test_one(): pass\ndef test_two(): sum(range(10**8))\n")
+    command = run(tmp_path / "test_two.py", "def test_one(): pass\ndef test_two(): sum(range(3 * 10**8))\n")
     command += ["-p", "tests.slow_tests", f"--cpu-times={file}", "-n", "2", "-p", "no:cacheprovider"]
     done = subprocess.run([str(word) for word in command], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 0, done.stdout

@@ -58,6 +58,7 @@ def terminal(tmp_path):
         "GIT_CONFIG_NOSYSTEM": "1",
         "GIT_CONFIG_GLOBAL": "/dev/null",
         "TMPDIR": str(tmp_path),
+        "TERM": "xterm",  # on a dumb terminal, readline shows the end of a long line only
     }
     with ExitStack() as programs:
 

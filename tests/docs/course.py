@@ -163,7 +163,8 @@ def _changed(file: Path, change: str) -> str:
 
 def _environment(folder: Path) -> dict[str, str]:
     path = f"{ROOT}{os.pathsep}{_site(folder)}"
-    return {**os.environ, "PYTHONPATH": path, "COLUMNS": "100", "XDG_RUNTIME_DIR": str(folder)}
+    own = {"PYTHONPATH": path, "COLUMNS": "100", "XDG_RUNTIME_DIR": str(folder)}
+    return {**os.environ, **own, "PYTHONUNBUFFERED": "1"}  # notes and results in the order of a terminal
 
 
 def _site(folder: Path) -> Path:
