@@ -270,6 +270,11 @@ def test_a_correct_cmake_file_is_silent(cmake, old, new):
         (":main", ":mian", "17: `cart/drive.py` does not define `mian`; did you mean `main`?"),
         ("resource_index/packages", "resource_index/package", "11: data_files does not install the marker"),
         (
+            'packages", ["resource/" + package_name]',
+            'package", [os.path.join("resource", package_name)]',
+            "11: data_files does not install the marker",
+        ),
+        (
             'name, "config")',
             'name, "configs")',
             "14: `config/cart.yaml` is installed to `share/cart/configs`, but launch",

@@ -263,3 +263,12 @@ def test_two_files_that_contradict_one_property_are_one_finding_there(name: str,
     [both] = lint(model, select=("K970",))
     assert (both.file.endswith("cart.urdf.xacro"), both.line) == (True, 2 if name == "wheel_separation" else 3)
     assert len(both.related) == 2
+
+
+@pytest.mark.parametrize(("radius", "count"), [("0.2", 1), ("0.1", 0)])
+def test_the_collision_shapes_of_wheels_with_meshes_are_measured(write, monkeypatch, radius, count):
+    mesh = '<visual><geometry><mesh filename="wheel.stl"/></geometry></visual>'
+    shape = '<collision><geometry><cylinder radius="0.1" length="0.05"/></geometry></collision>'
+    sphere = '<visual><geometry><sphere radius="0.1"/></geometry></visual>'
+    monkeypatch.setattr(f"{__name__}.WHEEL", WHEEL.replace(sphere, mesh + shape))
+    assert len(found(write, f"wheel_radius: {radius}")) == count

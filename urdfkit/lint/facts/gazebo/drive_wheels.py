@@ -181,6 +181,16 @@ def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str 
     )
 
 
+def collision_radii(wheel: Wheel, model: Model) -> list[float]:
+    """Return the radii of the collision shapes of a wheel [m], or of its visual shapes if it has no round ones."""
+    link = model.robot.link_by_name.get(wheel.joint.child or "")
+    for shapes in (link.collisions, link.visuals) if link is not None else ():
+        radii = [each.geometry.radius for each in shapes if isinstance(each.geometry, (Cylinder, Sphere))]
+        if radii:
+            return radii
+    return []
+
+
 def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float, str]:
     """Return the distance of two wheels [m], and its endpoints: their shapes if those agree, else their joints.
 

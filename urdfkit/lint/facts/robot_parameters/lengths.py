@@ -11,7 +11,7 @@ from urdfkit.description.urdf.robot import Box, Cylinder, Joint, Link, Sphere
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
 from urdfkit.lint.facts.control.yaml_tree import Node, number_of
-from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
+from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, collision_radii, wheel_of
 from urdfkit.lint.facts.robot_parameters.groups import groups_of_nodes, tokens
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import shapes_of
@@ -72,7 +72,7 @@ def _of_wheels(name: str, number: float, wheels: list[Wheel], model: Model) -> s
     """Return the message for a size or distance of wheels that none of the robot's wheels has; empty for others."""
     size = re.fullmatch(_SIZE, name)
     if size is not None:
-        radii = [radius for wheel in wheels for radius in _radii(wheel, model) if radius > 0.0]
+        radii = [radius for wheel in wheels for radius in collision_radii(wheel, model) if radius > 0.0]
         factor = 2.0 if size[1] == "diameter" else 1.0
         sizes = [unit * factor * radius for radius in radii for unit in (1.0, *_UNITS)]
         if not radii or any(abs(number - each) <= _TOLERANCE * each for each in sizes):
@@ -94,16 +94,6 @@ def _of_wheels(name: str, number: float, wheels: list[Wheel], model: Model) -> s
     if not distances or any(each / (1.0 + _TOLERANCE) <= one <= most * each for each in accepted for one in numbers):
         return ""
     return f"`{name}` is {number:g} m, but the wheels are {distances[-1]:.6g} m apart"
-
-
-def _radii(wheel: Wheel, model: Model) -> list[float]:
-    """Return the radii of the collision shapes of a wheel [m], or of its visual shapes if it has no round ones."""
-    link = model.robot.link_by_name.get(wheel.joint.child or "")
-    for shapes in (link.collisions, link.visuals) if link is not None else ():
-        radii = [each.geometry.radius for each in shapes if isinstance(each.geometry, (Cylinder, Sphere))]
-        if radii:
-            return radii
-    return []
 
 
 def _of_segment(name: str, number: float, model: Model) -> str:

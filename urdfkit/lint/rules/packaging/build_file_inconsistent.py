@@ -234,7 +234,7 @@ class BuildFileInconsistent(RobotRule):
             message = f"the version in setup.py is {version[1]}, but the version in package.xml is {released}"
             yield self._at(source, version.start(1), version[1], message, "note", kind="version")
         data = re.search(r"data_files\s*=", source.text)
-        near = re.search(r"[\"'](share/ament_\w+/resource_\w+/\w+)[\"']\s*,\s*\[\s*f?[\"']resource/", source.text)
+        near = re.search(r"[\"'](share/ament_\w+/resource_\w+/\w+)[\"']", source.text)
         if marker is None and data is not None and (near is not None or "resource_index" not in source.text):
             message = "data_files does not install the marker `resource/…` to share/ament_index/resource_index/packages"
             place = (near.start(1), near[1]) if near is not None else (data.start(), "data_files")

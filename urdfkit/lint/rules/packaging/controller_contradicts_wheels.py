@@ -24,8 +24,8 @@ class ControllerContradictsWheels(RobotRule):
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
     accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
     robot turns. If the controller has a ``wheel_separation_multiplier``, the larger separation is reported, because the
-    multiplier already compensates for the slip. The rule does not measure wheels with meshes. A left and a right wheel
-    at the same place are reported.
+    multiplier already compensates for the slip. Of wheels with meshes, only round collision shapes count. A left and a
+    right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -93,7 +93,7 @@ class ControllerContradictsWheels(RobotRule):
 
     def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_wheels import wheels_of
-        from urdfkit.lint.facts.gazebo.drive_wheels import track
+        from urdfkit.lint.facts.gazebo.drive_wheels import collision_radii, track
         from urdfkit.lint.facts.root_cause import property_of_length
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
 
@@ -149,7 +149,8 @@ class ControllerContradictsWheels(RobotRule):
                     other=written,
                     names=_links(first, other),
                 )
-        radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
+        found = (radius for _, wheel in (*left, *right) for radius in collision_radii(wheel, model))
+        radii = [radius for radius in found if radius > 0.0]
         for parameter, value in _positive_number(controller.group, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
