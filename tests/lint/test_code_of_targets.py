@@ -128,6 +128,12 @@ CORE = CMAKE[CMAKE.index("add_library(core") : CMAKE.index("ament_target_depende
         (")\nament_auto_add_library(core SHARED src/core.cpp", {}, []),
         ("", {"src/core.cpp": '#include "cart/core.hpp"\nint main() { return 0; }\n'}, []),
         ("", {"src/core.cpp": "double speed() { return 1.0; }\n"}, []),
+        ("", {"src/part.cpp": '#include "core.cpp"\n' + FILES["src/part.cpp"]}, []),
+        (
+            " /nowhere/part.cpp",
+            {},
+            ["8: no target compiles `src/core.cpp`, but target `part` uses its header `cart/core.hpp`"],
+        ),
     ],
 )
 def test_files_that_no_target_compiles(tmp_path, monkeypatch, sources, code, expected):

@@ -109,7 +109,14 @@ def _late_map(model: Model, each: Costmap) -> Defects:
         flag = layer.find("map_subscribe_transient_local")
         if flag is None or flag.text not in _FALSE:
             continue
-        sender = next((node.program for node in launched_nodes(model) if node.package in _SENDING_ONCE), None)
+        sender = next(
+            (
+                node.program
+                for node in launched_nodes(model)
+                if node.package in _SENDING_ONCE and node.program == "map_server"
+            ),
+            None,
+        )
         if sender is not None:
             message = f"`{sender}` publishes the map before this layer subscribes, and the layer does not get it"
             yield each.source, flag, f"{message}; write true"

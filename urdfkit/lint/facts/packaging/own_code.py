@@ -58,6 +58,8 @@ def uncompiled_files(
     if any(name not in ADDING for name in others) or any(command.name in _ADDING_FILES for command in every):
         return
     compiled = {path.stem for target in own.values() for path in target.sources}
+    headers = (header for target in own.values() for header in target.headers_of_all(files.folder))
+    compiled |= {Path(header).stem for header in headers if re.fullmatch(CODE, header)}  # code of templates
     for target in own.values():
         folders = sorted({path.parent for path in target.sources})
         for path, header in target.headers:
@@ -66,11 +68,11 @@ def uncompiled_files(
                 continue
             beside = [each for folder in folders for each in sorted(folder.glob(f"{stem}.c*"))]
             code = next((each for each in beside if re.fullmatch(CODE, each.name) and _implements(each, header)), None)
-            if code is not None:
+            if code is not None and files.folder in code.parents:
                 compiled.add(stem)
                 name = code.relative_to(files.folder).as_posix()
                 message = f"no target compiles `{name}`, but target `{target.name}` uses its header `{header}`"
-                yield BuildDefect(source, target.added.start, target.added.name, message)
+                yield BuildDefect(source, target.added.start, target.added.name, message, "warning")
 
 
 _OTHER_TARGETS = r".*add_(?:library|executable|module|nodelet)"

@@ -28,7 +28,7 @@ _MOST_SKID = 2.0
 """Largest ratio of an effective track to the distance of the wheels, if wheels slip when the robot turns."""
 
 _SIZE = r"(?:drive_|driven_)?wheel_(radius|diameter)"
-_TRACK = r"track|track_?width|wheel_(?:track|separation|distance)|separation_between_wheels"
+_TRACK = r"track_?width|wheel_(?:track|separation|distance)|separation_between_wheels"
 _BASE = r"wheel_?base|axle_(?:distance|separation)"
 _SEGMENT = r"(thigh|shank|calf|tibia|femur|coxa|(?:upper|lower)_(?:arm|leg)|forearm|boom|stick|jib)_(?:length|len)"
 """Matches lengths of the segments of limbs; the length of a hand or gripper can be that to its tool frame."""

@@ -77,7 +77,15 @@ class PluginValueUnknown(RobotRule):
             elif child.tag == "remapping" and plugin.filename in _WITH_ONE_TOPIC:
                 old, _, new = text.partition(":=")
                 old = old.strip()
-                if old.rpartition("/")[2] not in ("out", "vel", "tf", "tf_static"):
+                if old.rpartition("/")[2] not in (
+                    "out",
+                    "vel",
+                    "tf",
+                    "tf_static",
+                    "clock",
+                    "rosout",
+                    "parameter_events",
+                ):
                     message = f"this plugin has no topic `{old}`, so the remapping has no effect; write `~/out:=…`"
                     names = (new.strip().strip("/"),)
                     yield self.at(model, child, message, severity="warning", kind="remapping", names=names)

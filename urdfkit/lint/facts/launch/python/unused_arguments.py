@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from urdfkit.description.launch.python_constants import assignments
 from urdfkit.lint.facts.launch.python.names import class_called, launch_classes
 
-_READERS = frozenset(("IncludeLaunchDescription", "OpaqueFunction", "GroupAction"))
+_READERS = frozenset(("IncludeLaunchDescription", "OpaqueFunction", "GroupAction", "ParameterFile"))
 """Actions that can read an argument without naming it."""
 
 _CLOCK = "use_sim_time"
