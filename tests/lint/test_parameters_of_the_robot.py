@@ -24,6 +24,8 @@ def found(folder, parameters, **files):
         ("track_width: 0.5", []),  # the effective track of four wheels that slip
         ("track_width: 0.7", ["`track_width` is 0.7 m, but the wheels are 0.3 m apart"]),
         ("wheel_base: 0.3", []),  # in some packages the distance of the left and the right wheel
+        ("wheel_radius: 0.024\ntracking_wheel_ticks: 8192", []),  # wheels that only measure
+        ("track_width: 0.7\ntrack_length: 0.5", []),  # of belts
         ("wheel_radius: 0.0", []),
         ("wheel_radius: 50.0", []),  # millimetres
         ("wheel_diameter: 3.94", []),  # inches
@@ -34,6 +36,8 @@ def found(folder, parameters, **files):
         ("shank_length: 0.3", []),  # nothing is fixed to the end of the shank
         ("thigh_length: 0.05", []),  # of its box
         ("thigh_length: 0.1215", []),
+        ("thigh_length: 120.0", []),  # millimetres
+        ("thigh_length: 210.0", ["`thigh_length` is 210 m, but joint `left_shank_joint` is 0.12 m from the origin of"]),
         ("legs: [left, right]\nleg_y: [-0.05, 0.05]", ["`leg_y` is -0.05 m for `left`, which is at y = 0.05 m"]),
         ("legs: [left, right]\nleg_y: [0.04, -0.06]", []),  # both are unknown places
         ("gripper_length: 0.3", []),
@@ -41,7 +45,66 @@ def found(folder, parameters, **files):
     ],
 )
 def test_lengths_and_places(tmp_path, parameters, expected):
-    assert found(tmp_path, parameters) == expected
+    messages = found(tmp_path, parameters)
+    assert len(messages) == len(expected)
+    assert all(map(str.startswith, messages, expected))
+
+
+def test_parameters_of_the_variants_of_a_robot(tmp_path):
+    small = {"config/small.yaml": "walker:\n  ros__parameters:\n    wheel_radius: 0.05\n    track_width: 0.3\n"}
+    assert found(tmp_path, "wheel_radius: 0.09\ntrack_width: 0.7", **small) == []
+    assert len(found(tmp_path, "wheel_radius: 0.09\ntrack_width: 0.7\nspeed: 1.0", **small)) == 2
+
+
+@pytest.mark.parametrize(
+    ("origin", "name", "length", "is_found"),
+    [
+        ("0 0.03 -0.16", "shank_length", 0.17, False),  # to the ground, below a foot with a radius of 0.01 m
+        ("0 0.03 -0.16", "shank_length", 0.16, False),  # in the plane of the leg
+        ("0.04 0.03 -0.16", "shank_length", 0.1649, False),  # in a plane
+        ("0.04 0.03 -0.16", "shank_length", 0.19, True),
+    ],
+)
+@pytest.mark.parametrize("bracket", ["0 0 -0.01", "0 0 -0.3"])
+def test_ends_of_a_segment(tmp_path, origin, name, length, is_found, bracket):
+    foot = '<link name="foot"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>'
+    joints = "".join(
+        f'<joint name="{side}_{child}_joint" type="{kind}"><parent link="{side}_shank"/><child link="{side}_{child}"/>'
+        f'<origin xyz="{place}"/><axis xyz="0 1 0"/><limit effort="1" velocity="1" lower="-1" upper="1"/></joint>'
+        for side in ("left", "right")
+        for child, kind, place in (("foot", "revolute", origin), ("bracket", "fixed", bracket))
+    )
+    links = "".join(
+        foot.replace("foot", f"{side}_{child}") for side in ("left", "right") for child in ("foot", "bracket")
+    )
+    robot = FILES["walker.urdf"].replace("</robot>", f"{links}{joints}</robot>")
+    assert bool(found(tmp_path, f"{name}: {length}", **{"walker.urdf": robot})) is is_found
+
+
+ORDER = ("fl_hip", "fl_knee", "fr_hip", "fr_knee")
+BY_KIND = ("fl_hip", "fr_hip", "fl_knee", "fr_knee")
+
+
+@pytest.mark.parametrize(
+    ("sent", "others", "expected"),
+    [
+        ({"order": BY_KIND}, {}, ["joint 2 of controller `legs`, which takes commands by index, is `fl_knee`"]),
+        ({"policy_order": BY_KIND, "robot_order": ORDER}, {}, []),  # the node knows both
+        ({"joints": BY_KIND}, {"trajectory": BY_KIND}, []),  # of another controller
+    ],
+)
+def test_orders_of_nodes_and_controllers(tmp_path, sent, others, expected):
+    controllers = {"legs": ("forward_command_controller/ForwardCommandController", ORDER)} | {
+        name: ("joint_trajectory_controller/JointTrajectoryController", joints) for name, joints in others.items()
+    }
+    text = "".join(
+        f"{name}:\n  ros__parameters:\n    type: {kind}\n    joints: [{', '.join(joints)}]\n"
+        for name, (kind, joints) in controllers.items()
+    )
+    lists = "\n".join(f"{key}: [{', '.join(joints)}]" for key, joints in sent.items())
+    messages = found(tmp_path, lists, **{"config/controllers.yaml": text})
+    assert len(messages) == len(expected)
+    assert all(map(str.startswith, messages, expected))
 
 
 def test_wheels_beside_those_of_another_robot(tmp_path):

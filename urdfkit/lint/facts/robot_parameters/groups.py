@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import settings
@@ -21,12 +22,7 @@ def groups_of_nodes(model: Model) -> Iterator[tuple[Source, Node]]:
                 yield source, group
 
 
-def tokens(name: str) -> list[str]:
+@lru_cache(maxsize=4096)
+def tokens(name: str) -> tuple[str, ...]:
     """Return the lower-case words of a name."""
-    return re.findall(r"[a-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower())
-
-
-def contains(name: str, part: str) -> bool:
-    """Return whether a name contains the words of another one in their order, without others between them."""
-    words, inner = tokens(name), tokens(part)
-    return any(words[at : at + len(inner)] == inner for at in range(len(words) - len(inner) + 1)) and bool(inner)
+    return tuple(re.findall(r"[a-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()))

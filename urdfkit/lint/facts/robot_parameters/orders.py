@@ -24,36 +24,37 @@ _FEWEST_GROUPS = 3
 
 def wrong_orders(model: Model) -> Iterator[tuple[Source, Node, str]]:
     """Yield the first joint of each list that is in another order, with a message."""
-    lists = [
-        (source, one.name, joints.items)
+    controllers = [
+        (source, one, joints.items)
         for source in yamls(model)
         for one in settings(source)
-        if re.fullmatch(_BY_INDEX, one.kind) and (joints := one.group.find("joints")) is not None
+        if (joints := one.group.find("joints")) is not None
     ]
+    lists = [(source, one.name, items) for source, one, items in controllers if re.fullmatch(_BY_INDEX, one.kind)]
+    orders = [(one.name, [item.text for item in items]) for _, one, items in controllers]
     sent = [
-        (key, value.items)
+        (key, [item.text for item in value.items])
         for _, group in (groups_of_nodes(model) if lists else ())
         for key, value in group.entries
         if len(value.items) > 1 and group.find("type") is None  # MoveIt's controllers get joints by name
     ]
     for source, name, items in lists:
         names = [item.text for item in items]
-        for key, others in sent:
-            texts = [item.text for item in others]
-            at = _first_difference(names, texts) if sorted(names) == sorted(texts) else None
-            if at is not None:
-                message = f"joint {at + 1} of controller `{name}`, which takes commands by index, is `{names[at]}`"
-                yield source, items[at], f"{message}, but joint {at + 1} of `{key.text}` is `{texts[at]}`"
-                break
-        else:
-            at = _odd_limb(names)
-            if at is not None:
-                message = f"`{names[at]}` is in another order than the joints of the other limbs"
-                yield source, items[at], f"{message} in this list, whose commands have no names"
+        others = [(key, texts) for key, texts in sent if texts != names and sorted(texts) == sorted(names)]
+        of_others = [order for other, order in orders if other != name]
+        is_expected = any(texts == names for _, texts in sent) or any(texts in of_others for _, texts in others)
+        if others and not is_expected:
+            key, texts = others[0]
+            at = _first_difference(names, texts)
+            message = f"joint {at + 1} of controller `{name}`, which takes commands by index, is `{names[at]}`"
+            yield source, items[at], f"{message}, but joint {at + 1} of `{key.text}` is `{texts[at]}`"
+        elif not others and (odd := _odd_limb(names)) is not None:
+            message = f"`{names[odd]}` is in another order than the joints of the other limbs"
+            yield source, items[odd], f"{message} in this list, whose commands have no names"
 
 
-def _first_difference(one: list[str], other: list[str]) -> int | None:
-    return next((at for at, (a, b) in enumerate(zip(one, other, strict=True)) if a != b), None)
+def _first_difference(one: list[str], other: list[str]) -> int:
+    return next(at for at, (a, b) in enumerate(zip(one, other, strict=True)) if a != b)
 
 
 def _odd_limb(names: list[str]) -> int | None:
@@ -68,5 +69,4 @@ def _odd_limb(names: list[str]) -> int | None:
     if len(limbs) < _FEWEST_GROUPS or len(usual) < 2 or len(odd) != 1 or sorted(orders[odd[0]]) != sorted(usual):
         return None
     before = sum(len(limb) for limb in limbs[: odd[0]])
-    first = _first_difference(orders[odd[0]], usual)
-    return None if first is None else before + first
+    return before + _first_difference(orders[odd[0]], usual)

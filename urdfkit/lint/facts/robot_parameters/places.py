@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator
+from math import inf
 
+from urdfkit.description.urdf.robot import Vector
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, number_of
-from urdfkit.lint.facts.robot_parameters.groups import contains, groups_of_nodes
+from urdfkit.lint.facts.robot_parameters.groups import groups_of_nodes, tokens
 from urdfkit.lint.model.model import Model
 
 _COORDINATE = r"(?:^|_)([xy])(?:_|$)"
@@ -16,8 +19,12 @@ _EXACT = 0.005
 """Accepted deviation of a coordinate [m]."""
 
 
+_MOST_WORDS = 10
+
+
 def wrong_places(model: Model) -> Iterator[tuple[Source, Node, str]]:
     """Yield the coordinates that belong to another name of the list, or to none while most others fit."""
+    places: dict[tuple[str, ...], list[Vector]] = {}
     for source, group in groups_of_nodes(model):
         lists = [(key, value) for key, value in group.entries if re.search(_NAMES, key.text) and len(value.items) > 1]
         for key, value in group.entries if lists else ():
@@ -26,20 +33,22 @@ def wrong_places(model: Model) -> Iterator[tuple[Source, Node, str]]:
             fitting = [each for each in fitting if each[0] == _first(key.text)] or fitting
             if axis is None or len(fitting) != 1:
                 continue
-            names = fitting[0][1].texts()
-            wrong = _wrong_coordinate(model, "xy".index(axis[1]), names, value.items)
+            names, places = fitting[0][1].texts(), places or _places(model)
+            wrong = _wrong_coordinate(places, "xy".index(axis[1]), names, value.items)
             if wrong is not None:
                 yield source, value.items[wrong[0]], f"`{key.text}` is {wrong[1]}"
 
 
-def _wrong_coordinate(model: Model, axis: int, names: list[str], values: tuple[Node, ...]) -> tuple[int, str] | None:
+def _wrong_coordinate(
+    all_places: dict[tuple[str, ...], list[Vector]], axis: int, names: list[str], values: tuple[Node, ...]
+) -> tuple[int, str] | None:
     """Return the index of the first coordinate that does not fit its name, and the message; None if all fit."""
     numbers = [number for value in values if (number := number_of(value)) is not None]
-    places = [_places(model, axis, name) for name in names]
+    places = [[place[axis] for place in all_places.get(tokens(name), ())] for name in names]
     if len(numbers) != len(values) or len(names) != len(values) or not all(places):
         return None
     fits = [_is_in(number, place) for number, place in zip(numbers, places, strict=True)]
-    is_other_order = all(any(_is_in(number, place) for place in places) for number in numbers)
+    is_other_order = _are_in(numbers, [each for place in places for each in place])
     if all(fits) or not (is_other_order or 2 * sum(fits) > len(fits)):
         return None
     at = fits.index(False)
@@ -52,11 +61,27 @@ def _first(key: str) -> str:
     return key.partition("_")[0].removesuffix("s")
 
 
+def _are_in(numbers: list[float], places: list[float]) -> bool:
+    """Return whether there is a place near each number."""
+    ordered = [-inf, *sorted(places), inf]
+    return all(
+        min(number - ordered[at - 1], ordered[at] - number) <= _EXACT
+        for number in numbers
+        for at in (bisect_left(ordered, number),)
+    )
+
+
 def _is_in(number: float, places: list[float]) -> bool:
     return any(abs(number - place) <= _EXACT for place in places)
 
 
-def _places(model: Model, axis: int, name: str) -> list[float]:
-    """Return the coordinates of the links and of the joints whose names contain a name [m]."""
-    children = {joint.child for joint in model.robot.joints if contains(joint.name, name)}
-    return [frame.translation[axis] for link, frame in model.frames.items() if link in children or contains(link, name)]
+def _places(model: Model) -> dict[tuple[str, ...], list[Vector]]:
+    """Return the places of links by each sequence of words in the name of the link or of its joint [m]."""
+    joints = {joint.child: joint.name for joint in model.robot.joints}
+    places: dict[tuple[str, ...], list[Vector]] = {}
+    for link, frame in model.frames.items():
+        names = [tokens(name)[:_MOST_WORDS] for name in (link, joints.get(link)) if name]
+        runs = {name[at:end] for name in names for at in range(len(name)) for end in range(at + 1, 1 + len(name))}
+        for run in runs:
+            places.setdefault(run, []).append(frame.translation)
+    return places
