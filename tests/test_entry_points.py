@@ -60,3 +60,14 @@ def test_files_are_read_again_only_after_a_change_of_their_folder(tmp_path):
     assert attributes() == ["os:second"]
     install("b.dist-info", "third")
     assert attributes() == ["os:third"]
+
+
+def test_sources_that_are_installed_again(tmp_path):
+    """``pip install -e`` writes the entry points again in place, which does not change the folder."""
+    folder = tmp_path / "robot.egg-info"
+    folder.mkdir()
+    for attribute in ("first", "second"):
+        (folder / "entry_points.txt").write_text(f"[x]\nname = os:{attribute}\n")
+        an_hour_ago = time.time() - 3600
+        os.utime(tmp_path, (an_hour_ago, an_hour_ago))
+        assert [entry.value for entry in entry_points("x", path=[str(tmp_path)])] == [f"os:{attribute}"]

@@ -86,7 +86,11 @@ _SETTLED = 10 * 10**9
 
 
 def _entry_points_in(folder: str, groups: tuple[str, ...]) -> Found:
-    """Return the entry points of the packages in a folder, which are read again only after a change of the folder."""
+    """Return the entry points of the packages in a folder.
+
+    The folder is read again only after a change, but a folder of sources each time: installing it again changes files
+    in place.
+    """
     try:
         status = os.stat(folder)  # noqa: PTH116 - a path takes longer
         state = (status.st_dev, status.st_ino, status.st_mtime_ns)
@@ -100,7 +104,8 @@ def _entry_points_in(folder: str, groups: tuple[str, ...]) -> Found:
     for name in names:
         if name.endswith((".dist-info", ".egg-info")):
             found += _read(f"{folder}/{name}/entry_points.txt", groups, name)
-    if time.time_ns() - status.st_mtime_ns > _SETTLED:
+    is_source = not folder.endswith("-packages") and any(name.endswith(".egg-info") for name in names)
+    if not is_source and time.time_ns() - status.st_mtime_ns > _SETTLED:
         _read_before[folder, groups] = state, found
     return found
 

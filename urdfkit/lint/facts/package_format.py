@@ -150,7 +150,8 @@ def _exports(files: BuildFiles) -> Iterator[FormatDefect]:
             for path in attribute.value.split(":") if name != "plugin_path" else ():
                 inner = re.fullmatch(r"\$\{prefix\}/([\w-]+)(?:/.*)?", path)
                 build = files.cmake or files.setup
-                is_installed = inner is not None and build is not None and f"/{inner[1]}" in build.text
+                folder = rf"[\"'/]{re.escape(inner[1])}(?![\w-])" if inner is not None else ""
+                is_installed = build is not None and re.search(folder, build.text) is not None
                 if inner is not None and not is_installed and not files.has(inner[1]):
                     message = f"folder `{inner[1]}` of {name} does not exist in this package"
                     yield FormatDefect(tag, message, "warning")

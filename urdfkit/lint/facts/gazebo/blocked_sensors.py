@@ -30,6 +30,9 @@ _RAYS = 37
 _BLOCKED = 0.95
 """Number of directions of a lidar that are checked, and the part of them that a blocked lidar does not see beyond."""
 
+_THIN = 0.15
+"""Smallest ratio of the sizes of a box around a mesh that is not a plate, whose mesh may have an opening."""
+
 _FACING = 0.25
 """Part of the directions of a lidar that a robot behind it hides, if the lidar faces the robot."""
 
@@ -100,7 +103,10 @@ def _solids(model: Model) -> Iterator[Solid]:
         has_mesh = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
         for shape in (link.collisions if has_mesh else link.visuals or link.collisions) if frame is not None else ():
             geometry = shape.geometry
-            if frame is not None and isinstance(geometry, (Box, Cylinder, Sphere)) and diagonal(geometry) > _HOUSING:
+            if frame is None or not isinstance(geometry, (Box, Cylinder, Sphere)) or diagonal(geometry) <= _HOUSING:
+                continue
+            sizes = half_sizes(geometry)
+            if not has_mesh or min(sizes) >= _THIN * max(sizes):
                 yield link.name, geometry, frame.moved(shape.origin), not has_mesh
 
 

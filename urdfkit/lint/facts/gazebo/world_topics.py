@@ -7,6 +7,8 @@ from pathlib import Path
 from urdfkit.description.packages.related_files import LAUNCH, package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
+from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import code_texts
 
@@ -46,26 +48,39 @@ _MODEL_TOPIC = r"(?<![\w/])/model/(\w+)/(?=\w)"
 _NAME = r"(?<![\w-])--?name(?:[\"']?\s*,\s*[\"']|\s+[\"']?)(\w+)(?=[\s\"'])"
 """Matches the name of the model among the arguments of ``create`` (ros_gz_sim)."""
 
+_PARAMETER = (
+    r"[\"'](?:name|entity_name|model_name)[\"']\s*:\s*[\"'](\w+)[\"']"
+    r"|\bname\s*=\s*[\"'](?:name|entity_name|model_name)[\"']\s+(?:value|default)\s*=\s*[\"'](\w+)[\"']"
+)
+"""Matches the name of the model among the parameters of ``create``, or an argument for it."""
+
 _ANY_NAME = r"(?<![\w-])--?name(?=[\s\"'])"
 _MODEL = r"<model\s[^<>]*?\bname\s*=\s*[\"']([^\"'<>]+)[\"']|<name>\s*([^<>]+?)\s*</name>"
 """Matches the names of models and includes in a world."""
 
 
-def topics_of_other_models(model: Model) -> Iterator[tuple[Source, int, str, list[str]]]:
-    """Yield file, offset and name of each model in a topic that no launch file spawns and no world contains, with all.
+def topics_of_other_models(model: Model) -> Iterator[tuple[Source, int, str, str]]:
+    """Yield file, offset and name of each model in a topic that no launch file spawns and no world contains.
 
-    Nothing is yielded if a launch file computes the name of a model that it spawns.
+    The last value is the spawned model that is probably meant: it has a similar or longer name. Nothing is yielded if
+    a launch file computes the name of a model that it spawns.
     """
     files = [source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml", *LAUNCH))]
     used = [(source, at) for source in files for at in re.finditer(_MODEL_TOPIC, uncommented(source))]
     spawning = [uncommented(source) for source in files if "ros_gz_sim" in source.text and "create" in source.text]
     spawned = {name for text in spawning for name in re.findall(_NAME, text)}
+    others = {name for text in spawning for pair in re.findall(_PARAMETER, text) for name in pair}
     every = sum(len(re.findall(_ANY_NAME, text)) for text in spawning)
     if not used or not spawned or every != sum(len(re.findall(_NAME, text)) for text in spawning):
         return
     folders = {folder for file in model.related_files if (folder := package_of(Path(file))) is not None}
     texts = [text for folder in sorted(folders) for _, text in code_texts(folder, _ENDINGS)]
-    others = {name for text in texts for pair in re.findall(_MODEL, text) for name in pair}
+    others |= {name for text in texts for pair in re.findall(_MODEL, text) for name in pair} | {model.robot.name or ""}
+    unused = spawned - {at[1] for _, at in used}
     for source, at in used:
-        if at[1] not in spawned | others | {model.robot.name}:
-            yield source, at.start(1), at[1], sorted(spawned)
+        if at[1] not in spawned | others:
+            slips = [name for name in sorted(spawned) if is_slip(at[1], name)]
+            longer = [name for name in sorted(unused) if name in at[1] or at[1] in name]
+            near = next(iter(slips), None) or nearest(at[1], sorted(unused), cutoff=0.7) or next(iter(longer), None)
+            if near is not None:  # else it may be a model that a world includes
+                yield source, at.start(1), at[1], near

@@ -38,8 +38,11 @@ _OTHERS = (
 )
 _EVERY = (*_OF_CLASSIC, *_OF_GZ, *_OTHERS)
 _NAME = r"[\"']([A-Z][A-Z0-9]+(?:_[A-Z0-9]+)+)[\"']"
-_GZ, _CLASSIC = r"\bros_(?:gz_sim|ign_gazebo)\b", r"\bgazebo_ros\b"
+_GZ, _CLASSIC = r"\bros_(?:gz_sim|ign_gazebo)\b", r"\bgazebo_ros\b|\bgzserver\b|\blibgazebo_ros_"
 """Matches a launch file that starts gz-sim; the second one, Gazebo classic."""
+
+_FORTRESS = r"\bros_ign_gazebo\b"
+"""Matches a launch file for Gazebo Fortress, whose variables start with ``IGN_GAZEBO_``."""
 
 
 def wrong_variables(model: Model) -> Iterator[tuple[Source, int, str, str]]:
@@ -60,6 +63,8 @@ def wrong_variables(model: Model) -> Iterator[tuple[Source, int, str, str]]:
                 message = f"unknown environment variable `{name}`"
             elif name in _OF_CLASSIC and has_gz and not has_classic and names.isdisjoint(_OF_GZ):
                 near, message = _OF_CLASSIC[name], f"only Gazebo classic reads `{name}`"
+                if any(re.search(_FORTRESS, each) for each in texts):
+                    near = near.replace("GZ_SIM_", "IGN_GAZEBO_")
             elif name in _OF_GZ and has_classic and not has_gz and names.isdisjoint(_OF_CLASSIC):
                 near, message = _OF_GZ[name], f"Gazebo classic does not read `{name}`"
             if near is not None:

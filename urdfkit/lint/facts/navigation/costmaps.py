@@ -69,12 +69,13 @@ def costmap_defects(model: Model) -> Defects:
         layers = list(_layers(group))
         for at, (item, kind) in enumerate(layers):
             later = [(other, name) for other, name in layers[at + 1 :] if name in _MARKING]
+            static = next((other for other, name in later if name == "StaticLayer"), None)
             if kind == "InflationLayer" and later:
                 message = (
                     f"`{item.text}` is before `{later[0][0].text}`, whose obstacles are not inflated; move it last"
                 )
                 yield source, item, message
-            elif kind in _MARKING and (static := next((each for each, name in later if name == "StaticLayer"), None)):
+            elif kind in _MARKING[1:] and static is not None:
                 message = f"`{static.text}` is after `{item.text}` and overwrites its obstacles; move it first"
                 yield source, item, message
         window, static_map = group.find("rolling_window"), group.find("static_map")
@@ -106,8 +107,9 @@ _SENDING_ONCE = ("nav2_map_server",)
 def _late_map(model: Model, each: Costmap) -> Defects:
     """Yield the flag of a static layer that does not get the map that has been published before it subscribes."""
     for _, layer in each.group.entries:
-        flag = layer.find("map_subscribe_transient_local")
-        if flag is None or flag.text not in _FALSE:
+        flag, topic = layer.find("map_subscribe_transient_local"), layer.find("map_topic")
+        is_other = topic is not None and topic.text.strip("/") not in ("", "map")
+        if flag is None or flag.text not in _FALSE or is_other:
             continue
         sender = next(
             (

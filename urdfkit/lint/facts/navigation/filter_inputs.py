@@ -152,7 +152,8 @@ def _without_place(each: Filter) -> Defects:
     inputs, frame = list(each.inputs()), each.group.find("world_frame")
     written = [key for key, _ in each.group.entries if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", key.text)]
     has_place = any(value not in FALSE for _, _, _, values in inputs for value in values[:2])
-    if each.is_global and inputs and len(inputs) == len(written) and not has_place and frame is not None:
+    is_complete = bool(inputs) and len(inputs) == len(written) and each.publishes
+    if each.is_global and is_complete and not has_place and frame is not None:
         message = "`world_frame` is the map frame, but no input measures x and y; write the odometry frame"
         yield each.source, frame, message
 

@@ -80,7 +80,7 @@ def repeated_plugins(source: Source) -> Defects:
         for key, value in group.entries:
             plugin = value.find("plugin")
             name = plugin.class_name if plugin is not None else ""
-            if plugin is not None and name in _SINGLE:
+            if plugin is not None and name in _SINGLE and value.find("map_topic") is None:
                 seen.setdefault(name, []).append((key.text, plugin))
         for name, found in seen.items():
             other = [(key, plugin) for key, plugin in found if _plain(key) != _plain(name)]

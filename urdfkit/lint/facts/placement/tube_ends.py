@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.placement.joint_places import EXACT, PART, origin_of
+from urdfkit.lint.facts.placement.solids import local
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import Extent
 from urdfkit.record import record
@@ -38,54 +39,86 @@ class Tube:
     width: float
 
 
-def along_tubes(model: Model) -> Iterator[tuple[Joint, Element, float, float]]:
-    """Yield joints that are not at the end of the tube that carries them: joint, ``<origin>``, its place, the length.
+@record
+class Misplaced:
+    """A joint that is not at the end of the tube that carries it.
+
+    Attributes:
+        joint: the joint.
+        element: its ``<origin>``.
+        place: distance from the frame of the tube in the direction of its end [m]; negative on the other side.
+        length: length of the tube [m].
+    """
+
+    joint: Joint
+    element: Element
+    place: float
+    length: float
+
+
+def along_tubes(model: Model) -> Iterator[Misplaced]:
+    """Yield joints that are not at the end of the tube that carries them.
 
     Yields:
-        A joint at the opposite end: as far from the frame of its tube as the tube is long, with the other sign. A
-        joint as far along its tube as the next tube is long. Or the only joint that is not at the end of its tube, if
-        it carries a tube, does not turn about the axis of its own tube and several others are at the ends of theirs.
-        Only tubes with one moving link count for the last two.
+        A joint at the opposite end: as far from the frame of its tube as the tube is long, with the other sign, where
+        no link is fixed to the tube. A joint as far along its tube as the next tube is long, if another tube
+        has a joint at its end. Or the only joint that is not at the end of its tube, if it carries a tube, does not
+        turn about the axis of its own tube and several others are at the ends of theirs. Only tubes with one moving
+        link count for the last two.
     """
     tubes = {link: tube for link, extent in model.extents.items() if (tube := _tube(extent)) is not None}
     carried = Counter(joint.parent for joint in model.robot.joints if joint.is_movable)
     meshed = {link.name for _, _, link in model.meshes}
     ends: set[object] = set()
-    off: dict[object, tuple[Joint, Element, float, float]] = {}
-    seen: set[object] = set()
+    ended: set[str | None] = set()
+    opposite: dict[object, Misplaced] = {}
+    at_length_of_next: dict[object, Misplaced] = {}
+    off: dict[object, Misplaced] = {}
     for joint in model.robot.joints:
         tube, element = tubes.get(joint.parent or ""), origin_of(joint)
         if tube is None or model.is_unresolved(element, "xyz"):
             continue
-        place, across = joint.origin.xyz[tube.axis], _across(joint, tube)
-        own, position = tubes.get(joint.child or ""), element.origin.position
+        found = Misplaced(
+            joint, element, joint.origin.xyz[tube.axis] * (-1.0 if tube.end < 0.0 else 1.0), abs(tube.end)
+        )
+        across, position = _across(joint, tube), element.origin.position
+        own = tubes.get(joint.child or "")
+        ended.update([joint.parent] if abs(found.place - found.length) <= EXACT else [])
         is_only = carried[joint.parent] == 1 and joint.type in ("revolute", "continuous")
-        is_off = abs(place - tube.end) > PART * abs(tube.end)
-        is_length_of_next = own is not None and abs(abs(own.end) - place * _sign(tube.end)) <= EXACT
-        if across <= tube.width and abs(place + tube.end) <= EXACT and joint.child in model.extents:
-            if position not in seen:
-                seen.add(position)
-                yield joint, element, place * _sign(tube.end), abs(tube.end)
+        is_off = abs(found.place - found.length) > PART * found.length
+        is_length_of_next = own is not None and abs(abs(own.end) - found.place) <= EXACT
+        if across <= tube.width and abs(found.place + found.length) <= EXACT and joint.child in model.extents:
+            if not _is_carried(joint, model):
+                opposite.setdefault(position, found)
         elif is_only and is_off and across <= _BESIDE * tube.width and is_length_of_next:
-            if position not in seen:
-                seen.add(position)
-                yield joint, element, abs(place), abs(tube.end)
+            at_length_of_next.setdefault(position, found)
         elif is_only and across <= EXACT and joint.parent not in meshed:
-            if abs(place - tube.end) <= EXACT:
+            if abs(found.place - found.length) <= EXACT:
                 ends.add(position)
             elif is_off:
-                off.setdefault(position, (joint, element, place, abs(tube.end)))
-    if len(off) != 1 or seen:
+                off.setdefault(position, found)
+    yield from opposite.values()
+    yield from (each for each in at_length_of_next.values() if ended - {each.joint.parent})
+    if len(off) != 1 or opposite or at_length_of_next or len(ends) < _ENDS:
         return
-    [(joint, element, place, length)] = off.values()
-    carrier = tubes[joint.parent or ""]
-    is_folding = joint.child in tubes and abs(joint.axis[carrier.axis]) < _ALONG
-    if place > 0.0 and is_folding and len(ends) >= _ENDS:
-        yield joint, element, place, length
+    [last] = off.values()
+    carrier = tubes[last.joint.parent or ""]
+    if last.place > 0.0 and last.joint.child in tubes and abs(last.joint.axis[carrier.axis]) < _ALONG:
+        yield last
 
 
-def _sign(number: float) -> float:
-    return -1.0 if number < 0.0 else 1.0
+def _is_carried(joint: Joint, model: Model) -> bool:
+    """Return whether another link that is fixed to the parent of a joint reaches the joint."""
+    parent = model.frames.get(joint.parent or "")
+    if parent is None:
+        return False
+    place = parent.moved(joint.origin).translation
+    for other in model.robot.joints:
+        frame, extent = model.frames.get(other.child or ""), model.extents.get(other.child or "")
+        is_fixed = other.type == "fixed" and other.parent == joint.parent and other is not joint
+        if is_fixed and frame is not None and extent is not None and extent.outside(local(frame, place)) <= EXACT:
+            return True
+    return False
 
 
 def _across(joint: Joint, tube: Tube) -> float:

@@ -77,19 +77,14 @@ class PluginValueUnknown(RobotRule):
             elif child.tag == "remapping" and plugin.filename in _WITH_ONE_TOPIC:
                 old, _, new = text.partition(":=")
                 old = old.strip()
-                if old.rpartition("/")[2] not in (
-                    "out",
-                    "vel",
-                    "tf",
-                    "tf_static",
-                    "clock",
-                    "rosout",
-                    "parameter_events",
-                ):
+                if old.rpartition("/")[2] not in _TOPICS and not old.startswith("__"):
                     message = f"this plugin has no topic `{old}`, so the remapping has no effect; write `~/out:=…`"
                     names = (new.strip().strip("/"),)
                     yield self.at(model, child, message, severity="warning", kind="remapping", names=names)
 
+
+_TOPICS = ("out", "vel", "tf", "tf_static", "clock", "rosout", "parameter_events")
+"""Topics of these plugins, and those of every node."""
 
 _WITH_ONE_TOPIC = tuple(f"libgazebo_ros_{name}_sensor.so" for name in ("ray", "imu", "gps"))
 """Plugins of ROS 2 that publish on ``~/out``, and the GPS sensor on ``~/vel`` too (gazebo_plugins, 3.5)."""

@@ -91,14 +91,15 @@ class JointOffItsParent(RobotRule):
             names = tuple(name for name in (joint.child, joint.parent) if name)
             found.add(joint.name)
             yield self.at(model, place.element, message, attribute="xyz", joint=joint.name, help=help, names=names)
-        for joint, element, distance, length in along_tubes(model):
+        for each in along_tubes(model):
+            joint = each.joint
             if joint.name not in found:
-                message = f"joint `{joint.name}` is {distance:.3g} m along `{joint.parent}`, "
-                message += f"not at its end, at {length:.3g} m"
+                message = f"joint `{joint.name}` is {each.place:.3g} m along `{joint.parent}`, "
+                message += f"not at its end, at {each.length:.3g} m"
                 help = "check which length the origin is computed with"
-                help = "check the sign of the origin" if distance < 0.0 else help
+                help = "check the sign of the origin" if each.place < 0.0 else help
                 names = tuple(name for name in (joint.child, joint.parent) if name)
-                yield self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
+                yield self.at(model, each.element, message, attribute="xyz", joint=joint.name, help=help, names=names)
                 found.add(joint.name)
         for joint, gap, k in on_wrong_side(model):
             if joint.name not in found:

@@ -138,12 +138,9 @@ class BridgeMisspelt(RobotRule):
             near = nearest(world, worlds, cutoff=0.7) or (worlds[0] if len(worlds) == 1 else None)
             message = f"no world file of these packages has a world `{world}`" + Suggestion(near, world)
             yield self.at_span(source.span(start, start + len(world)), message)
-        for source, start, name, names in topics_of_other_models(model):
-            inside = next((each for each in names if each in name or name in each), None)
-            near = nearest(name, names, cutoff=0.7) or inside
-            if near is not None:  # else it may be a model that a world includes
-                message = f"no launch file spawns a model `{name}`" + Suggestion(near, name)
-                yield self.at_span(source.span(start, start + len(name)), message)
+        for source, start, name, near in topics_of_other_models(model):
+            message = f"no launch file spawns a model `{name}`" + Suggestion(near, name)
+            yield self.at_span(source.span(start, start + len(name)), message)
 
     def _at(self, source: Source, reference: Named, message: str, kind: str = "") -> Finding:
         return self.at_span(source.span(reference.start, reference.end), message, kind=kind)
