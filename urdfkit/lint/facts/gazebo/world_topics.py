@@ -54,6 +54,9 @@ _PARAMETER = (
 )
 """Matches the name of the model among the parameters of ``create``, or an argument for it."""
 
+_OF_ROBOTS = r"(?:cmd_vel|odometry|odom|tf|pose|joint_state|joint_trajectory)\b"
+"""Matches the ends of topics that a robot has, but furniture has not."""
+
 _ANY_NAME = r"(?<![\w-])--?name(?=[\s\"'])"
 _MODEL = r"<model\s[^<>]*?\bname\s*=\s*[\"']([^\"'<>]+)[\"']|<name>\s*([^<>]+?)\s*</name>"
 """Matches the names of models and includes in a world."""
@@ -76,11 +79,14 @@ def topics_of_other_models(model: Model) -> Iterator[tuple[Source, int, str, str
     folders = {folder for file in model.related_files if (folder := package_of(Path(file))) is not None}
     texts = [text for folder in sorted(folders) for _, text in code_texts(folder, _ENDINGS)]
     others |= {name for text in texts for pair in re.findall(_MODEL, text) for name in pair} | {model.robot.name or ""}
-    unused = spawned - {at[1] for _, at in used}
+    topics = {word.strip("\"'") for source in files for word in uncommented(source).split()}
     for source, at in used:
         if at[1] not in spawned | others:
             slips = [name for name in sorted(spawned) if is_slip(at[1], name)]
-            longer = [name for name in sorted(unused) if name in at[1] or at[1] in name]
-            near = next(iter(slips), None) or nearest(at[1], sorted(unused), cutoff=0.7) or next(iter(longer), None)
+            rest = source.text[at.end() :].partition("\n")[0].strip(" \"'")
+            is_of_robot = re.match(_OF_ROBOTS, rest) is not None
+            free = [name for name in sorted(spawned) if is_of_robot and f"/model/{name}/{rest}" not in topics]
+            longer = [name for name in free if name in at[1] or at[1] in name]
+            near = next(iter(slips), None) or nearest(at[1], free, cutoff=0.7) or next(iter(longer), None)
             if near is not None:  # else it may be a model that a world includes
                 yield source, at.start(1), at[1], near

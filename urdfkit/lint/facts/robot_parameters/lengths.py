@@ -57,20 +57,22 @@ def wrong_lengths(model: Model) -> Defects:
     """Yield the lengths that contradict the robot, with a message."""
     wheels = [] if has_other_wheels(model) else _wheels(model)
     checked = [
-        (source, group, tuple(_of_group(group, [] if _has_other_wheels(source, group) else wheels, model)))
-        for source, group in groups_of_nodes(model)
+        (source, group, tuple(_of_group(source, group, wheels, model))) for source, group in groups_of_nodes(model)
     ]
     for source, group, defects in checked:
         for value, message in defects if not _is_of_variant(source, group, checked) else ():
             yield source, value, message
 
 
-def _of_group(group: Node, wheels: list[Wheel], model: Model) -> Iterator[tuple[Node, str]]:
+def _of_group(source: Source, group: Node, wheels: list[Wheel], model: Model) -> Iterator[tuple[Node, str]]:
     for key, value in group.entries:
         number, name = number_of(value), key.text.rpartition(".")[2]
         if number is None or number <= 0.0:
             continue
-        message = _of_wheels(name, number, wheels, model) or _of_segment(name, number, model)
+        message = _of_wheels(name, number, wheels, model)
+        if message and _has_other_wheels(source, group):
+            continue
+        message = message or _of_segment(name, number, model)
         if message:
             yield value, message
 

@@ -109,6 +109,7 @@ def _unmoved_outputs(
         others = sorted(drives if node.package == "twist_mux" else every)
         what = f"; remap it to `{others[0]}`" if len(others) == 1 else ""
         named = Named(node.source.text[slice(*node.place)], node.place[0])
+        named = next((old for old, _ in node.remappings if "vel" in old.name), named)
         yield node.source, named, f"no node subscribes to the velocity commands on `{topic}` of this node{what}"
 
 
