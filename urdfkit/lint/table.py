@@ -235,6 +235,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_YAML, "packaging.parameter_contradicts_robot", "ParameterContradictsRobot"),
     ("package.xml", "packaging.manifest_invalid", "ManifestInvalid"),
     ("package.xml", "packaging.build_file_inconsistent", "BuildFileInconsistent"),
+    ("package.xml", "packaging.code_import_undefined", "CodeImportUndefined"),
     (f"{_LAUNCH} {_YAML}", "packaging.parameter_type_wrong", "ParameterTypeWrong"),
     (_YAML, "packaging.controllers_share_interface", "ControllersShareInterface"),
     (_YAML, "packaging.controller_joint_foreign", "ControllerJointForeign"),

@@ -56,13 +56,13 @@ def packages_in_code(folder: Path, others: Collection[str]) -> Iterator[tuple[So
             name = at[group]
             is_package = name in others or (name in names() and ("_" in name or name in _SHORT))
             if is_package and name not in _OF_CLIENTS and not (folder / name).is_dir():
-                lines = lines if source is not None else _lines_of_imports(text)
+                lines = lines if source is not None else lines_of_imports(text)
                 source = source or Source(shown_path(path), text)
                 if source.position(at.start()).line in lines:
                     yield source, name, at.start(group), at.end(group)
 
 
-def _lines_of_imports(text: str) -> set[int]:
+def lines_of_imports(text: str) -> set[int]:
     """Return the lines of the imports without a condition; none for a file that is not valid Python."""
     tree = python_tree(text)
     body = tree.body if tree is not None else []
