@@ -353,3 +353,53 @@ def test_packages_of_own_headers(tmp_path, monkeypatch, package, is_given):
     rows = [row for row in found(tmp_path / "cart") if "headers of" in row]
     message = f"target `core` includes headers of `{package}`, but does not depend on it"
     assert rows == ([] if is_given else [f"CMakeLists.txt:11: {message}"])
+
+
+MESSAGES = {
+    "catkin": """cmake_minimum_required(VERSION 3.0.2)
+project(cart)
+find_package(catkin REQUIRED COMPONENTS message_generation roscpp)
+add_message_files(FILES Row.msg)
+generate_messages()
+catkin_package(CATKIN_DEPENDS message_runtime roscpp)
+include_directories(${catkin_INCLUDE_DIRS})
+add_executable(part src/part.cpp)
+{}target_link_libraries(part ${catkin_LIBRARIES})
+install(TARGETS part RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+""",
+    "ament_cmake": """cmake_minimum_required(VERSION 3.8)
+project(cart)
+find_package(ament_cmake REQUIRED)
+find_package(rosidl_default_generators REQUIRED)
+rosidl_generate_interfaces(cart_msgs msg/Row.msg LIBRARY_NAME cart)
+add_executable(part src/part.cpp)
+{}install(TARGETS part DESTINATION lib/cart)
+ament_package()
+""",
+}
+TYPESUPPORT = 'rosidl_get_typesupport_target(support cart_msgs "rosidl_typesupport_cpp")\n'
+
+
+@pytest.mark.parametrize(
+    ("tool", "header", "command", "expected"),
+    [
+        ("catkin", "cart/Row.h", "", ["9: target `part` includes `cart/Row.h`, but may be built before it"]),
+        ("catkin", "cart/Row.h", "add_dependencies(part ${catkin_EXPORTED_TARGETS})\n", ["10: target `part`"]),
+        ("catkin", "cart/Row.h", "add_dependencies(part ${${PROJECT_NAME}_EXPORTED_TARGETS})\n", []),
+        ("catkin", "cart/Row.h", "add_dependencies(part cart_generate_messages_cpp)\n", []),
+        ("catkin", "ros/ros.h", "", []),
+        ("ament_cmake", "cart/msg/row.hpp", "", ["6: target `part` includes `cart/msg/row.hpp`, but may be built"]),
+        ("ament_cmake", "cart/msg/row.hpp", TYPESUPPORT + "target_link_libraries(part ${support})\n", []),
+        ("ament_cmake", "cart/msg/row.hpp", "rosidl_target_interfaces(part cart_msgs rosidl_typesupport_cpp)\n", []),
+        ("ament_cmake", "cart/msg/row.hpp", "target_link_libraries(part cart_msgs__rosidl_typesupport_cpp)\n", []),
+    ],
+)
+def test_targets_with_messages_of_their_package(tmp_path, monkeypatch, tool, header, command, expected):
+    monkeypatch.chdir(tmp_path)
+    files = {"CMakeLists.txt": MESSAGES[tool].replace("{}", command), "msg/Row.msg": "float64 offset\n"}
+    code = f"#include <{header}>\n\nint main() {{\n  return 0;\n}}\n"
+    manifest = FILES["package.xml"].replace("ament_cmake", tool)
+    write(tmp_path, {"urdf/cart.urdf": FILES["urdf/cart.urdf"], "package.xml": manifest, "src/part.cpp": code, **files})
+    texts = [text for text in found(tmp_path) if "may be built" in text]
+    assert len(texts) == len(expected)
+    assert all(text.startswith(f"CMakeLists.txt:{start}") for text, start in zip(texts, expected, strict=True))

@@ -11,7 +11,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
-from urdfkit.lint.facts.packaging.targets import ADDING, CODE, Target, included, linked
+from urdfkit.lint.facts.packaging.targets import ADDING, CODE, Target, included, linked, without_project
 from urdfkit.lint.facts.ros_packages import is_slip
 
 
@@ -73,6 +73,52 @@ def uncompiled_files(
                 name = code.relative_to(files.folder).as_posix()
                 message = f"no target compiles `{name}`, but target `{target.name}` uses its header `{header}`"
                 yield BuildDefect(source, target.added.start, target.added.name, message, "warning")
+
+
+def before_messages(
+    source: Source, own: Mapping[str, Target], files: BuildFiles, every: list[CMakeCommand]
+) -> Iterator[BuildDefect]:
+    """Yield targets that include headers of messages of the package, but are not built after these messages.
+
+    Sources: catkin (user guide, "Building messages, services or actions") and rosidl_cmake
+    (rosidl_get_typesupport_target, rosidl_target_interfaces).
+    """
+    names = {each.name for each in every}
+    is_catkin = "generate_messages" in names
+    if not is_catkin and "rosidl_generate_interfaces" not in names:
+        return
+    waiting = {
+        without_project(each.words[0][0], files)
+        for each in every
+        if each.name in ("add_dependencies", "rosidl_target_interfaces") and each.words
+        if any(re.search(_GENERATED, word) for word, _ in each.words[1:]) or each.name.startswith("rosidl_")
+    }
+    for target in own.values():
+        reached = linked(target, own, files)
+        words = [word for name in reached for word in own[name].words]
+        is_waiting = not reached.isdisjoint(waiting) or any(
+            re.search(r"typesupport|_generate_messages", w) for w in words
+        )
+        if is_waiting or not _is_plain(words, is_catkin):
+            continue
+        pattern = re.escape(files.name) + (r"/([A-Z]\w*)\.h" if is_catkin else r"/(?:msg|srv|action)/(\w+)\.hpp")
+        headers = [header for header in target.headers_of_all(files.folder) if re.fullmatch(pattern, header)]
+        header = next((each for each in headers if not files.has(f"include/{each}")), None)
+        if header is not None:
+            needed = "add_dependencies()" if is_catkin else "rosidl_get_typesupport_target()"
+            message = f"target `{target.name}` includes `{header}`, but may be built before it; call {needed}"
+            yield BuildDefect(source, *target.place, message, "warning" if is_catkin else "error")
+
+
+_GENERATED = r"(?<!catkin)_EXPORTED_TARGETS|_generate_messages|_gencpp|_gencfg"
+"""Matches the targets that generate the messages of a package of catkin; those of other packages are in catkin_…."""
+
+
+def _is_plain(words: list[str], is_catkin: bool) -> bool:
+    """Return whether no variable among the words of targets can stand for the messages of the package."""
+    accepted = r"\$\{(?:catkin|Boost|EIGEN3?)_\w+\}" if is_catkin else r"\$\{\w+_(?:TARGETS|LIBRARIES|INCLUDE_DIRS)\}"
+    accepted += r"|\$<.*>|\$\{PROJECT_NAME\}\w*|\$\{CMAKE_\w+\}.*"
+    return all("$" not in word or re.fullmatch(accepted, word) for word in words)
 
 
 _OTHER_TARGETS = r".*add_(?:library|executable|module|nodelet)"

@@ -12,7 +12,7 @@ from urdfkit.lint.facts.packaging.build_files import BuildFiles
 from urdfkit.lint.facts.packaging.cmake_commands import CMakeCommand
 from urdfkit.lint.facts.packaging.cmake_defects import BuildDefect
 from urdfkit.lint.facts.packaging.cmake_packages import found_packages, place_of_package, provided
-from urdfkit.lint.facts.packaging.own_code import missing_own_headers, uncompiled_files
+from urdfkit.lint.facts.packaging.own_code import before_messages, missing_own_headers, uncompiled_files
 from urdfkit.lint.facts.packaging.targets import ADDING, KEYWORDS, USES, Target, linked, named, targets
 from urdfkit.lint.facts.ros_packages import is_slip, names
 
@@ -30,6 +30,7 @@ def code_defects(files: BuildFiles, source: Source, every: list[CMakeCommand]) -
     if wrong or any(named(each, files) not in own for each in every if each.name in USES and each.words):
         return  # missing packages are a consequence
     yield from uncompiled_files(source, own, files, every)
+    yield from before_messages(source, own, files, every)
     is_catkin = "catkin" in found
     folders = {word for each in every if each.name == "include_directories" for word, _ in each.words}
     if is_catkin:
