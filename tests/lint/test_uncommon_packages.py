@@ -191,3 +191,95 @@ def test_the_place_of_commands_that_no_drive_reads(tmp_path):
     write(tmp_path, {"cart.urdf": ROBOT, "package.xml": MANIFEST, "config/a.yaml": DRIVE, "launch/s.launch.py": start})
     [each] = [each for each in lint(tmp_path / "cart.urdf") if "no node subscribes to the velocity" in each.message]
     assert start.splitlines()[each.line - 1][each.column - 1 :].startswith("'teleop_node'")
+
+
+SERVERS = """Node(package='nav2_controller', executable='controller_server', name='controller_server'{}),
+        Node(package='nav2_behaviors', executable='behavior_server', name='behavior_server'{}),
+        Node(package='nav2_velocity_smoother', executable='velocity_smoother', name='velocity_smoother'{}),
+        Node(package='nav2_lifecycle_manager', executable='lifecycle_manager', name='manager',
+             parameters=[{{'autostart': True, 'node_names': {}}}])"""
+NAMES = "['controller_server', 'behavior_server', 'velocity_smoother']"
+TO_SMOOTHER = ", remappings=[('cmd_vel', 'cmd_vel_nav')]"
+
+
+@pytest.mark.parametrize(
+    ("first", "names", "count"),
+    [
+        ('"""Nav2 without nav2_bringup."""\n', NAMES, 0),
+        ('"""Nav2 without nav2_bringup."""\n', NAMES.replace("'behavior_server', ", ""), 1),
+        ('SHARE = "nav2_bringup"\n', NAMES.replace("'behavior_server', ", ""), 0),  # its launch files may list it
+    ],
+)
+def test_servers_that_no_list_contains(tmp_path, first, names, count):
+    start = first + launch("", SERVERS.format(TO_SMOOTHER, TO_SMOOTHER, TO_SMOOTHER, names))
+    assert sum("never activated" in each for each in found(tmp_path, "L117", start=start)) == count
+
+
+@pytest.mark.parametrize(
+    ("controller", "behaviors", "smoother", "count"),
+    [
+        (TO_SMOOTHER, TO_SMOOTHER, TO_SMOOTHER, 0),
+        (TO_SMOOTHER, "", TO_SMOOTHER, 0),  # as in nav2_bringup of Humble
+        ("", TO_SMOOTHER, TO_SMOOTHER, 1),
+        ("", "", "", 0),
+        (", remappings=rules", TO_SMOOTHER, TO_SMOOTHER, 0),
+    ],
+)
+def test_a_controller_that_publishes_past_the_smoother(tmp_path, controller, behaviors, smoother, count):
+    start = launch("", SERVERS.format(controller, behaviors, smoother, NAMES))
+    assert sum("past `velocity_smoother`" in each for each in found(tmp_path, "K980", start=start)) == count
+
+
+COMMAND = '<launch><param name="robot_description" command="{} $(find cart)/cart.urdf"/></launch>'
+
+
+@pytest.mark.parametrize(
+    ("program", "version", "count"),
+    [
+        ("$(find xacro)/xacro.py", "3.0.2", 1),
+        ("rosrun xacro xacro.py", "3.0.2", 1),
+        ("$(find xacro)/xacro", "3.0.2", 0),
+        ("$(find xacro)/xacro.py", "2.8.3", 0),  # Melodic and before
+        ("$(find cart)/xacro.py", "3.0.2", 0),
+    ],
+)
+def test_programs_that_noetic_has_no_longer(tmp_path, program, version, count):
+    text = (
+        f"cmake_minimum_required(VERSION {version})\nproject(cart)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
+    )
+    write(tmp_path, {"launch/start.launch": COMMAND.format(program), "CMakeLists.txt": text})
+    messages = found(tmp_path, "L103", manifest=MANIFEST.replace("ament_cmake", "catkin"))
+    assert sum("in Noetic" in message for message in messages) == count
+
+
+def arm(prefix):
+    """Return the links and joints of an arm in a frame `world`."""
+    parents = ["world", *(f"{prefix}l{k}" for k in (1, 2))]
+    return "".join(
+        f'<link name="{prefix}l{k}"/><joint name="{prefix}joint_{k}" type="revolute"><parent link="{parent}"/>'
+        f'<child link="{prefix}l{k}"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        for k, parent in enumerate(parents, 1)
+    )
+
+
+OTHER = f"""<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="world"/>
+<xacro:macro name="arm" params="prefix">{arm("${prefix}")}</xacro:macro>
+</robot>
+"""
+STATE = '<robot name="cart"><group name="arm"><chain base_link="world" tip_link="arm_l3"/></group>\n{}</robot>'
+
+
+@pytest.mark.parametrize(
+    ("joints", "count"),
+    [
+        (("arm_joint_1", "arm_joint_2", "arm_joint_3"), 0),
+        (("joint_1", "arm_joint_2", "arm_joint_3"), 1),
+        (("joint_1", "joint_2", "joint_3"), 0),  # of the arm that the macro makes without a prefix
+    ],
+)
+def test_names_without_the_prefix_of_all_others(tmp_path, joints, count):
+    values = "".join(f'<joint name="{joint}" value="0"/>' for joint in joints)
+    state = f'<group_state name="home" group="arm">{values}</group_state>'
+    write(tmp_path, {"arm.urdf.xacro": OTHER, "cart.srdf": STATE.format(state)})
+    robot = f'<robot name="cart"><link name="world"/>{arm("arm_")}</robot>'
+    assert sum("does not exist in robot" in each for each in found(tmp_path, "M104", robot=robot)) == count

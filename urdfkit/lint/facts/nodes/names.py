@@ -48,7 +48,7 @@ _UNMANAGED = ("map_saver_server", "lifecycle_manager", "costmap_filter_info_serv
 """Nav2 programs that often start without a lifecycle manager of their own file."""
 
 _COMPUTED = (
-    r"\.(?:append|extend|insert)\(|\+=|OpaqueFunction|ComposableNode|composable_node|nav2_bringup"
+    r"\.(?:append|extend|insert)\(|\+=|OpaqueFunction|ComposableNode|composable_node|nav2_bringup[\"'/)]"
     r"|<param\b(?=[^>]*\bnode_names\b)[^>]*\$"
 )
 """Matches a launch file whose lists of nodes may be longer than they are written."""

@@ -53,6 +53,7 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     muxes = {node.source.file for node in nodes if node.package == "twist_mux"}
     words, seen = Words(model), set[str]()
     yield from _unmoved_outputs(model, nodes, (drives, every), words, own)
+    yield from _past_smoothers(model)
     for node, _, new in written:
         topic = new.name.strip("/")
         # A driver in another package may read the output of twist_mux, and cmd_vel.
@@ -111,6 +112,29 @@ def _unmoved_outputs(
         named = Named(node.source.text[slice(*node.place)], node.place[0])
         named = next((old for old, _ in node.remappings if "vel" in old.name), named)
         yield node.source, named, f"no node subscribes to the velocity commands on `{topic}` of this node{what}"
+
+
+def _past_smoothers(model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the controller servers that publish past the smoother whose input the behavior server has.
+
+    In nav2_bringup, the controller always publishes to the smoother, but in Humble the behaviors do not.
+    """
+    nodes = [node for node in launched_nodes(model) if not node.has_more_remappings and node.place is not None]
+    if remaps_groups(model):
+        return
+    for smoother in (node for node in nodes if node.program == "velocity_smoother"):
+        topic = remapped(smoother, "cmd_vel")
+        same = [node for node in nodes if (node.source, node.namespace) == (smoother.source, smoother.namespace)]
+        moved = [node for node in same if node.program == "behavior_server" and remapped(node, "cmd_vel") == topic]
+        for node in same if moved and topic != "cmd_vel" else ():
+            if (
+                node.program == "controller_server"
+                and remapped(node, "cmd_vel") == "cmd_vel"
+                and node.place is not None
+            ):
+                named = Named(node.source.text[slice(*node.place)], node.place[0])
+                message = "publishes its velocity commands on `cmd_vel`, past `velocity_smoother`, which reads"
+                yield node.source, named, f"this node {message} `{topic}`"
 
 
 def _in_other_namespace(node: LaunchedNode, topic: str, readers: frozenset[str]) -> Iterator[tuple[Source, Named, str]]:

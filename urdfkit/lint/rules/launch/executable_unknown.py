@@ -56,6 +56,7 @@ class ExecutableUnknown(RobotRule):
         """Yield a finding for each unknown executable."""
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.lint.facts.launch.actions import launch_files
+        from urdfkit.lint.facts.launch.removed_programs import removed_programs
         from urdfkit.lint.facts.launch.ros_version import reads_version
         from urdfkit.lint.facts.nodes.nodelets import wrong_nodelets
         from urdfkit.lint.facts.ros_packages import misspelling_of
@@ -68,6 +69,9 @@ class ExecutableUnknown(RobotRule):
         by_package: dict[str, Executables | None] = {**released()}
         for package in near:
             by_package.pop(package, None)
+        for source, start, program, other in removed_programs(model):
+            message = f"package `xacro` has no executable `{program}` in Noetic" + Suggestion(other, program)
+            yield self.at_span(source.span(start, start + len(program)), message)
         for source, word, message in wrong_nodelets(model):
             yield self.at_span(source.span(word.start, word.end), message, severity="warning")
         for file in launch_files(model):

@@ -9,6 +9,8 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from urdfkit.description.xml.element import Element
     from urdfkit.lint.facts.moveit.srdf import NameUse
     from urdfkit.lint.finding import Finding
@@ -83,7 +85,8 @@ class SrdfNameUndefined(RobotRule):
                     hint = f"; it is a {other}: write <{other}>"
                     yield self._undefined(places[0], root, model, hint, len(places))
                     continue
-                if kind != "group" and model.neighbouring_descriptions.define(kind, name):
+                is_alone = _lacks_a_prefix(root, places, suggestion, existing[kind])
+                if kind != "group" and not is_alone and model.neighbouring_descriptions.define(kind, name):
                     continue
                 finding = self._undefined(places[0], root, model, hint, len(places))
                 yield from (finding,) if kind == "group" else unless_masked(model, name, suggestion, finding)
@@ -103,3 +106,15 @@ class SrdfNameUndefined(RobotRule):
             kind=kind,
             severity=severity_for(root, model, "warning" if tag.endswith("_collisions") else self.severity),
         )
+
+
+def _lacks_a_prefix(root: Element, places: Sequence[NameUse], suggestion: str | None, existing: Sequence[str]) -> bool:
+    """Return whether a name is a defined one without its prefix, which all other names around it have."""
+    use = places[0]
+    if suggestion is None or len(places) != 1 or not suggestion.endswith(f"_{use.name}"):
+        return False
+    prefix = suggestion.removesuffix(use.name)
+    around = next((each for each in root.children if use.element in each.children), root)
+    others = [each.get(use.attribute) for each in around.children if each.tag == use.element.tag]
+    others = [each for each in others if each != use.name]
+    return len(others) > 1 and all(each in existing and each.startswith(prefix) for each in others if each is not None)
