@@ -355,6 +355,23 @@ def test_packages_of_own_headers(tmp_path, monkeypatch, package, is_given):
     assert rows == ([] if is_given else [f"CMakeLists.txt:11: {message}"])
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("core PUBLIC include", "core PRIVATE include", ["9: `cart/core.hpp` is not found for target `part`"]),
+        ("core PUBLIC include", "core PRIVATE src PUBLIC include", []),
+        ("(core PUBLIC include)", "(core PRIVATE include)\ntarget_include_directories(part PRIVATE include)", []),
+        ("(core PUBLIC include)", "(core PRIVATE include)\ninclude_directories(include)", []),
+        ("core PUBLIC include", "core PUBLIC ${rclcpp_INCLUDE_DIRS} PRIVATE include", []),  # perhaps the same folder
+    ],
+)
+def test_private_folders_of_headers(tmp_path, monkeypatch, old, new, expected):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, FILES | {"CMakeLists.txt": CMAKE.replace(old, new)})
+    texts = [text for text in found(tmp_path) if "is not found" in text]
+    assert [text.partition(",")[0] for text in texts] == [f"CMakeLists.txt:{each}" for each in expected]
+
+
 MESSAGES = {
     "catkin": """cmake_minimum_required(VERSION 3.0.2)
 project(cart)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.defect_message import Suggestion
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.packaging.build_files import BuildFiles
@@ -21,8 +22,17 @@ def missing_own_headers(
     """Yield a missing folder of headers of the package, and libraries of the package that a target has to link."""
     reached = linked(target, own, files)
     available = {*folders, *(word for name in reached for word in own[name].words)}
-    has_folder = any("include" in word.lower() and "catkin_INCLUDE" not in word for word in available)
+    has_folder = any(_is_folder(word) for word in available)
     needed = [(path, header) for path, header in target.headers if files.has(f"include/{header}")]
+    if needed and has_folder and not any(_is_folder(word) for word in {*folders, *target.words}):
+        private = [_private_folder(own[name]) for name in sorted(reached - {target.name})]
+        shared = [word for name in reached - {target.name} for word in own[name].words if _is_folder(word)]
+        hidden = [each for each in private if each is not None]
+        if len(hidden) == len(shared) == 1:
+            [start] = hidden
+            message = f"`{needed[0][1]}` is not found for target `{target.name}`, because this folder is PRIVATE"
+            yield BuildDefect(source, start, "PRIVATE", message + Suggestion("PUBLIC", "PRIVATE"))
+            return
     if needed and not has_folder:
         near = next((word for word in sorted(available) if is_slip(word, "include")), None)
         if near is None:
@@ -42,6 +52,22 @@ def missing_own_headers(
             )
             yield BuildDefect(source, *target.place, message)
             reached.add(library.name)
+
+
+def _is_folder(word: str) -> bool:
+    """Return whether a word is a folder of headers of the package."""
+    return "include" in word.lower() and "catkin_INCLUDE" not in word
+
+
+def _private_folder(library: Target) -> int | None:
+    """Return the offset of PRIVATE before the folder of headers of a library; None if its users get the folder."""
+    for command in library.uses:
+        scope: tuple[str, int] = ("", 0)
+        for word, start in command.words[1:] if command.name == "target_include_directories" else ():
+            scope = (word, start) if word in ("PUBLIC", "PRIVATE", "INTERFACE") else scope
+            if _is_folder(word) and scope[0] == "PRIVATE":
+                return scope[1]
+    return None
 
 
 def uncompiled_files(
