@@ -14,7 +14,7 @@ from urdfkit.lint.project.code_files import code_texts
 
 _FORMER = r"\$\(find\s+xacro\)/(xacro\.py)\b|\brosrun\s+xacro\s+(xacro\.py)\b"
 _OF_NOETIC = r"VERSION\s+3\.0\.2\b|<\w*depend>\s*python3-|\bnoetic\b"
-"""Matches build files for Noetic; its migration guide asks for this version of CMake."""
+"""Matches build files for Noetic; its migration guide requires this version of CMake."""
 
 
 def removed_programs(model: Model) -> Iterator[tuple[Source, int, str, str]]:
