@@ -27,7 +27,7 @@ class NeighbouringDescriptions:
 
     def __init__(self, expanded: Expanded, package: Path | None, related_files: Iterable[str]) -> None:
         self._expanded, self._package, self._related_files = expanded, package, related_files
-        self._patterns: dict[str, re.Pattern[str]] = {}
+        self._names_of: dict[str, tuple[frozenset[str], re.Pattern[str]]] = {}
 
     def define(self, tag: str, name: str) -> bool:
         """Return whether they may define a link or joint, for any values of the arguments.
@@ -36,9 +36,11 @@ class NeighbouringDescriptions:
             tag: ``link`` or ``joint``.
             name: name of the link or joint.
         """
-        if tag not in self._patterns:
-            self._patterns[tag] = re.compile("|".join(self._names(tag)) or r"(?!)")
-        return self._patterns[tag].fullmatch(name) is not None
+        if tag not in self._names_of:
+            literal, computed = self._names(tag)
+            self._names_of[tag] = literal, re.compile("|".join(computed) or r"(?!)")
+        literal, pattern = self._names_of[tag]
+        return name in literal or pattern.fullmatch(name) is not None
 
     def mention(self, text: str) -> bool:
         """Return whether one of them that the robot does not include contains a text."""
@@ -55,8 +57,8 @@ class NeighbouringDescriptions:
                 return str(name)
         return ""
 
-    def _names(self, tag: str) -> list[str]:
-        """Return patterns of the names of links or joints."""
+    def _names(self, tag: str) -> tuple[frozenset[str], list[str]]:
+        """Return the names of links or joints, and patterns of those with expressions."""
         texts, own = self._texts, self._own
         is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
         texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
@@ -68,6 +70,10 @@ class NeighbouringDescriptions:
             for macro, found in _in_macros(tag, every)
             for name in re.findall(r"\bname\s*=\s*[\"']([^\"']*)", found)[:1]
         ]
+        literal = frozenset(name for name, _ in names if "$" not in name)
+        names = [each for each in names if "$" in each[0]]
+        if not names:
+            return literal, []
         calls: Calls = {}
         for macro, text in _in_macros(_CALL, every):
             called = re.split(r"[\s/>]", text.partition(":")[2], maxsplit=1)[0].rpartition(".")[2]
@@ -81,7 +87,7 @@ class NeighbouringDescriptions:
             ]
             name, value = ((each[1] or each[2] or "") if each is not None else _UNKNOWN for each in found)
             properties.setdefault(name, []).append((value, macro))
-        return [_pattern(*name, calls, properties) for name in dict.fromkeys(names)]
+        return literal, [_pattern(*name, calls, properties) for name in dict.fromkeys(names)]
 
     @cached_property
     def _own(self) -> dict[str, str]:

@@ -13,7 +13,7 @@ from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import code_texts
 
 _FORMER = r"\$\(find\s+xacro\)/(xacro\.py)\b|\brosrun\s+xacro\s+(xacro\.py)\b"
-_OF_NOETIC = r"VERSION\s+3\.0\.2\b|<\w*depend>\s*python3-|\bnoetic\b"
+_OF_NOETIC = r"VERSION\s+3\.0\.2\b|<\w*depend>\s*python3-|\b[Nn]oetic\b"
 """Matches build files for Noetic; its migration guide requires this version of CMake."""
 
 

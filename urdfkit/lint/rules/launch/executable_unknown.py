@@ -31,7 +31,8 @@ class ExecutableUnknown(RobotRule):
     Checks the ``exec``, ``type`` or ``executable`` of nodes of the robot's package and its neighbours. These names are
     compared with the executables that CMakeLists.txt, setup.py or setup.cfg define and, for catkin, with the files of
     the package. The rule also checks about fifty common released packages. It reports misspelt executables of all these
-    packages and, for some packages, executables of the other ROS version.
+    packages and, for some packages, executables of the other ROS version. In commands of launch files for Noetic, it
+    reports ``xacro.py``, which only earlier releases have.
 
     ## Why is this bad?
     The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".

@@ -64,6 +64,14 @@ class SrdfNameUndefined(RobotRule):
             for (kind, name), places in uses.items():
                 if name in existing[kind]:
                     continue
+                other = {"link": "joint", "joint": "link"}.get(kind, "")
+                if name in existing.get(other, ()) and places[0].element.tag == kind:
+                    hint = f"; it is a {other}: write <{other}>"
+                    yield self._undefined(places[0], root, model, hint, len(places))
+                    continue
+                is_accepted = kind != "group" and not _lacks_a_prefix(root, places, existing[kind])
+                if is_accepted and model.neighbouring_descriptions.define(kind, name):
+                    continue
                 suggestion, hint = meant(name, existing[kind])
                 # A group that has the name of another one, which srdf-duplicate reports, leaves its own undefined.
                 if kind == "group" and len(groups(root)) < len(root.find_all("group")):
@@ -79,14 +87,6 @@ class SrdfNameUndefined(RobotRule):
                     yield self.at(
                         model, group, message, attribute="name", severity=severity, kind="unused", names=(name,)
                     )
-                    continue
-                other = {"link": "joint", "joint": "link"}.get(kind, "")
-                if name in existing.get(other, ()) and places[0].element.tag == kind:
-                    hint = f"; it is a {other}: write <{other}>"
-                    yield self._undefined(places[0], root, model, hint, len(places))
-                    continue
-                is_alone = _lacks_a_prefix(root, places, suggestion, existing[kind])
-                if kind != "group" and not is_alone and model.neighbouring_descriptions.define(kind, name):
                     continue
                 finding = self._undefined(places[0], root, model, hint, len(places))
                 yield from (finding,) if kind == "group" else unless_masked(model, name, suggestion, finding)
@@ -108,12 +108,13 @@ class SrdfNameUndefined(RobotRule):
         )
 
 
-def _lacks_a_prefix(root: Element, places: Sequence[NameUse], suggestion: str | None, existing: Sequence[str]) -> bool:
+def _lacks_a_prefix(root: Element, places: Sequence[NameUse], existing: Sequence[str]) -> bool:
     """Return whether a name is a defined one without its prefix, which all other names around it have."""
     use = places[0]
-    if suggestion is None or len(places) != 1 or not suggestion.endswith(f"_{use.name}"):
+    longer = [each for each in existing if each.endswith(f"_{use.name}")]
+    if len(longer) != 1 or len(places) != 1:
         return False
-    prefix = suggestion.removesuffix(use.name)
+    prefix = longer[0].removesuffix(use.name)
     around = next((each for each in root.children if use.element in each.children), root)
     others = [each.get(use.attribute) for each in around.children if each.tag == use.element.tag]
     others = [each for each in others if each != use.name]
