@@ -65,6 +65,31 @@ def test_an_arm_that_its_base_drives_into_walls_stays_out_of_them(tmp_path: Path
     assert deepest < 2e-3  # it was 9 mm where rounds that spiral towards their goal were taken for a contradiction
 
 
+@pytest.mark.slow
+def test_a_humanoid_between_boards_of_18_mm_stays_on_its_side_of_them(tmp_path: Path) -> None:
+    # A closet of 1.2 metres; motors of 300 N·m press its feet and fingers against the boards.
+    places = (
+        (0.609, 0.0, 0.018, 1.236),
+        (-0.609, 0.0, 0.018, 1.236),
+        (0.0, 0.609, 1.2, 0.018),
+        (0.0, -0.609, 1.2, 0.018),
+    )
+    walls = [WALL.format(k=k, x=x, y=y, long=a, wide=b) for k, (x, y, a, b) in enumerate(places)]
+    path = tmp_path / "closet.world"
+    path.write_text(ROOM.format(walls="\n    ".join(walls)))
+    simulator = Simulator(module("run").loaded("humanoid_42"), world=path, note=lambda _: None)
+    driver = module("driver").Driver(simulator, np.random.default_rng([6]))
+    watch = module("watch").Watch(simulator, module("found").Found("humanoid_42"))
+    deepest = 0.0
+    for look in range(160):
+        driver.drive(look * 0.05, resting=False)
+        simulator.step(50)
+        watch.look(quiet=False)
+        deepest = max(deepest, *(contact.depth for contact in simulator.state.contacts), 0.0)
+    assert watch.found.wrong == {}  # a finger went through a board where rounds failed and their rest was used
+    assert deepest < 3e-3  # it was 25 mm
+
+
 @pytest.fixture(scope="module")
 def watched() -> Any:
     simulator = Simulator("simpleton", world="house", note=lambda _: None)

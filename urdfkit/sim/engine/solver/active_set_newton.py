@@ -192,8 +192,8 @@ def gains_energy(w: KernelWorld, rows: int, x: Any) -> bool:
 
 
 @compiled
-def proximal_point(w: KernelWorld, rows: int, tiny: float) -> int:
-    """Compute the impulses by the proximal point method, if the warm start failed.
+def proximal_point(w: KernelWorld, rows: int, tiny: float, large: int) -> int:
+    """Compute the impulses by the proximal point method, if the warm start failed; with `large` rows only by sweeps.
 
     Returns:
         How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
@@ -204,7 +204,7 @@ def proximal_point(w: KernelWorld, rows: int, tiny: float) -> int:
     tried = 0
     sweeps = 0
     moved = math.inf
-    if rows > LARGE:
+    if rows > large:
         sweeps = SWEEPS + 1
         moved = gauss_seidel(w, rows, near, sweeps, tiny)
     while sweeps <= SWEEPS:
@@ -308,15 +308,17 @@ def guess(w: KernelWorld, rows: int, largest: float, attempts: int) -> int:
 
 
 @compiled
-def iterate(w: KernelWorld, rows: int, largest: float) -> int:
+def iterate(w: KernelWorld, rows: int, largest: float, large: int = LARGE) -> int:
     """Find the impulses x where guesses were in vain, from the impulses that these left in ``before``.
+
+    More than `large` rows are only swept.
 
     Returns:
         How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
     """
     near = w.near_x
     tiny = smallest(largest)
-    tried = proximal_point(w, rows, tiny)
+    tried = proximal_point(w, rows, tiny, large)
     if tried != 0:
         distribute_redundant_loads(w, rows, tiny)
     if (tried <= 0 or tried > MANY) and is_implausible(w, rows, w.x, largest):

@@ -6,11 +6,12 @@ from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import ATTEMPT, LAST_ATTEMPT, SKIPPED, TURNS
 
-RESTING, LIFTING, LEAVING, RELAXED, MOVING, BOUNDED = range(6)
+RESTING, LIFTING, LEAVING, RELAXED, MOVING, BOUNDED, GUESSED, SWEPT = range(8)
 """Attempts: with a hard penalty, the same with one slow correction of all deep penetrations, which cannot contradict
 each other where they have one normal, without any corrections of penetrations, also without slow returns of joints
 beyond their limits, this with a soft penalty that grows, and with friction bounded by the normal impulses before each
-round. The rounds of the last one minimise convex functions, so they converge where friction jams a moving robot."""
+round. The rounds of this one minimise convex functions, so they converge where friction jams a moving robot. The last
+two make no rounds: guesses of the active set, and sweeps where these fail, too, which only come near the law."""
 DEEP, LIFT = 0.003, 0.004
 """Penetrations [m] from which on `LIFTING` is tried, and its correction [m/s], for which joints need the force."""
 LONGEST = 16
@@ -53,6 +54,9 @@ def first_attempt(w: KernelWorld, tree: int, joint_rows: int, rows: int, contact
     """Return the attempt that a step begins with: that of the last step if the ones before failed several times."""
     at = ATTEMPT * tree
     attempt = int(w.attempt[at + LAST_ATTEMPT]) if w.attempt[at + SKIPPED] > 0 else RESTING
+    if attempt == SWEPT:
+        # Rounds are tried in each step, but no guesses.
+        return attempt
     if attempt == LIFTING and not lift_out(w, joint_rows, rows, contacts):
         attempt = RESTING
     if attempt >= LEAVING:
@@ -101,4 +105,4 @@ def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
         w.attempt[at + SKIPPED] = max(0, w.attempt[at + SKIPPED] - 1)
     else:
         w.attempt[at + TURNS] += 1
-        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last < BOUNDED else 0
+        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last != BOUNDED else 0

@@ -20,16 +20,20 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.kernel_world import KernelWorld
-from urdfkit.sim.engine.simulation_memory import ATTEMPT, LAST_ATTEMPT
+from urdfkit.sim.engine.simulation_memory import ATTEMPT, LAST_ATTEMPT, MATRIX
+from urdfkit.sim.engine.solver.active_set_newton import fastest_row, iterate, regularise_tangents
 from urdfkit.sim.engine.solver.attempts import (
     BOUNDED,
+    GUESSED,
     LIFTING,
     MOVING,
     RESTING,
+    SWEPT,
     first_attempt,
     next_attempt,
     remember_attempt,
 )
+from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
 from urdfkit.sim.engine.solver.penalty_rows import (
     forget_matrix,
     imbalance,
@@ -68,6 +72,11 @@ MEMORY = 1.0 - 1e-6
 """How much of the last step's impulses is started from: a load that nothing determines slowly becomes even."""
 EVEN, MOVES = 0.99, 1e-3
 """The same for a robot that moves faster than the second value [m/s or rad/s], whose friction depends on that load."""
+FAIR = 1e-4
+"""Velocity [m/s or rad/s] that the next round may still change for a result to be used where no round gains: of
+`LIFTING`, which is a fortieth of its correction, and of the last round of all attempts."""
+MOST_GUESSED = 100
+"""Rows up to which `GUESSED` follows where all rounds failed: of these, the motors of a humanoid are some forty."""
 FEW_ROWS, FEW_DOFS = 20, 15
 """Rows, and dofs, up to which `active_set_newton.solve` is used instead: it is exact, and quick where it is small."""
 MOST_ROWS, ATTEMPTS = 36, 5
@@ -224,6 +233,29 @@ def limit_energy(w: KernelWorld, tree: int, rows: int, brought: float) -> None:
 
 
 @compiled
+def solve_without_rounds(w: KernelWorld, tree: int, stride: int, rows: int, guesses: bool) -> int:
+    """Do what `solve_single_tree` does by the matrix of all rows, with guesses of the active set or only by sweeps.
+
+    Returns:
+        How many guesses it took; 0 if velocities only come near the law.
+    """
+    first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
+    # What `smooth_motion` left in u is L times the change of velocity without impulses.
+    for d in range(first, beyond):
+        w.u[d] = w.u_free[d] / w.inverse_diagonal[d]
+        e = w.dof_parent[d]
+        while e >= 0:
+            w.u[d] += w.L[w.dof_row[d] + e] * w.u_free[e]
+            e = w.dof_parent[e]
+    build_delassus(w, rows, tree, stride, False)
+    regularise_tangents(w, rows)
+    tried = iterate(w, rows, fastest_row(w, rows), MOST_GUESSED if guesses else 0)
+    apply_impulses(w, rows, tree, stride, False)
+    solve_forward(w, first, beyond)
+    return abs(tried)
+
+
+@compiled
 def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contacts: int) -> int:
     """Find the impulses x of the rows of a single tree, from ``before``; u becomes the change of its velocities.
 
@@ -246,13 +278,18 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     damped_inertia(w, tree, inertia)
     prepare(w, tree, stride, joint_rows, contacts, inertia)
     attempt = first_try = first_attempt(w, tree, joint_rows, rows, contacts)
+    guessed = rows <= MOST_GUESSED and rows * rows <= w.sizes[MATRIX]
+    if attempt == SWEPT:
+        attempt = RESTING
+    elif attempt == GUESSED and not guessed:
+        attempt = MOVING
     begin(w, tree, stride, rows, joint_rows, contacts, attempt)
     hardness, balance = SOFT if attempt == MOVING else HARD, BALANCE
     last_hardness = 0.0
-    total = 0
+    total = taken = 0
     before = math.inf
     met = False
-    while total < (TOTAL + MORE if attempt == BOUNDED else TOTAL) and not met:
+    while attempt != GUESSED and total < (TOTAL + MORE if attempt == BOUNDED else TOTAL) and not met:
         bounded = attempt == BOUNDED
         # Between these attempts the penalty differs, or the matrix does not.
         if hardness != last_hardness or (bounded and total == TOTAL):
@@ -261,7 +298,8 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         taken = descend_tree(w, tree, stride, rows, joint_rows, contacts, hardness, balance, inertia, bounded)
         total += max(1, abs(taken))
         off = take_over(w, rows, hardness)
-        if taken >= 0 and (off <= (NEAR if bounded else SOLVED) or GAIN * before < off <= NEAR):
+        near = FAIR if attempt == LIFTING else NEAR
+        if taken >= 0 and (off <= (NEAR if bounded else SOLVED) or GAIN * before < off <= near):
             met = balance == EXACT
             balance = EXACT
         elif (attempt == LIFTING and total >= LIFT_TRY) or (
@@ -283,6 +321,10 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         elif attempt >= MOVING or (attempt != RESTING and off > QUICK * before and off * off > SOLVED * before):
             hardness = min(HARDEST, HARDER * hardness)
         before = off
+    if not met and guessed and not (taken >= 0 and before <= FAIR):
+        total = solve_without_rounds(w, tree, stride, rows, first_try != SWEPT)
+        remember_attempt(w, tree, first_try, GUESSED if total > 0 else SWEPT)
+        return total if total > 0 else -TOTAL
     remember_attempt(w, tree, first_try, attempt)
     # Of the impulses found, so that momentum is kept whatever the accuracy.
     row_velocities(w, tree, stride, joint_rows, contacts, w.sum_v, 1.0, w.y)
