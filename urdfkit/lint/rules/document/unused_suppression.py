@@ -15,9 +15,10 @@ class UnusedSuppression(Rule):
     """A suppression comment suppresses no finding.
 
     ## What it does
-    Checks for ``urdfkit: ignore …`` comments that match no finding, and for single codes in such comments that match no
-    finding. Codes that are not selected or do not apply to the target are not checked. Robots with missing parts are
-    not checked either. A comment in an included file counts as used if it suppresses a finding of any linted robot.
+    Checks for ``urdfkit: ignore …`` comments that match no finding, and for individual codes in such comments that
+    match no finding. Codes that are not selected or do not apply to the target are not checked. Robots with missing
+    parts are not checked either. A comment in an included file counts as used if it suppresses a finding of any linted
+    robot.
 
     ## Why is this bad?
     An unused comment hides future findings.

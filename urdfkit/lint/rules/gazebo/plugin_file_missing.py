@@ -12,7 +12,7 @@ class PluginFileMissing(RobotRule):
     """The parameter file of a Gazebo plugin does not exist.
 
     ## What it does
-    Checks that the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control exists. Files outside of known
+    Checks that the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control exists. Files outside known
     packages, and files that the build may generate, are reported as notes, because `urdfkit sim` ignores a plugin whose
     file is missing.
 

@@ -9,7 +9,7 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginInWrongSensor(RobotRule):
-    """A plugin is outside of a sensor, or in a sensor of a type that it does not accept.
+    """A plugin is outside a sensor, or in a sensor of a type that it does not accept.
 
     ## What it does
     Checks the plugins of gazebo_ros_pkgs and velodyne_simulator that publish the data of a sensor.

@@ -13,7 +13,8 @@ class PluginParamWrongGeneration(RobotRule):
     ## What it does
     ROS 1 spells parameters in camelCase; ROS 2 and Gazebo Sim use snake_case. Some parameters have also changed their
     meaning. The rule reports parameters that only another generation of the plugin reads. The target determines the
-    generation. Without a target, the rule assumes the generation that reads most parameters of the plugin.
+    generation. Without a target, the rule assumes the generation that reads the largest number of the plugin's
+    parameters.
 
     ## Why is this bad?
     The plugin ignores the parameter and uses its default, so its topics, frames and wheels differ from the description.

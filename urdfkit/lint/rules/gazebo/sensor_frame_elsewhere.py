@@ -17,7 +17,7 @@ _AWAY = 0.05
 
 
 class SensorFrameElsewhere(RobotRule):
-    """A lidar or camera publishes its data in the frame of another place.
+    """A lidar or camera publishes its data in a frame at a different place.
 
     ## What it does
     Compares ``frameName``, ``frame_name`` and ``gz_frame_id`` of lidars and cameras with the link of the sensor.

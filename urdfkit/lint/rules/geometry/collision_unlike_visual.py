@@ -40,10 +40,10 @@ class CollisionUnlikeVisual(RobotRule):
     Compares the collision shapes of a link with its visual shapes. Reports:
 
     - shapes of about the same size in different poses
-    - cylinders and boxes with the same dimensions in another order
+    - cylinders and boxes with the same dimensions in a different order
     - a single collision shape that is at least three times larger or smaller than the visual shape of the same kind, in
       all directions or, for a box, in two of them
-    - shapes of which one dimension has a wrong decimal point
+    - shapes with a misplaced decimal point in one dimension
     - wheels whose visual and collision radius differ
 
     ## Why is this bad?

@@ -40,7 +40,7 @@ class ComOutsideGeometry(RobotRule):
     the distance exceeds the diagonal of the box. Links with an unreadable mesh are not checked.
 
     ## Why is this bad?
-    The robot tips over, or swings as if its mass hung next to it. The usual cause is an origin of the shape that was
+    The robot tips over, or swings as if its mass were next to it. The usual cause is an origin of the shape that was
     not copied to ``<inertial>``.
 
     ## Example

@@ -29,8 +29,9 @@ class InertiaAxesSwapped(RobotRule):
     Compares ixx, iyy and izz of each link with the moments of inertia of its shapes at uniform density. Reports a
     tensor that differs from these moments in two cases:
 
-    - It agrees with them to 10 % if the axes are in another order. A common factor of the three moments is ignored.
-    - It agrees to 2 % with the moments of a cylinder with radius and length swapped.
+    - It agrees with them within 10 % if the axes are in a different order. A common factor of the three moments is
+      ignored.
+    - It agrees within 2 % with the moments of a cylinder with radius and length swapped.
 
     Meshes are replaced by their bounding boxes.
 

@@ -8,7 +8,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class InertiaCopyPaste(RobotRule):
-    """Links of different size have the same inertia tensor.
+    """Links of different sizes have the same inertia tensor.
 
     ## What it does
     Checks for a tensor that three or more links share although the sizes of their shapes differ by more than a tenth.

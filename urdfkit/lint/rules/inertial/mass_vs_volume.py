@@ -20,7 +20,7 @@ class MassVsVolume(RobotRule):
 
     ## What it does
     Divides the mass by the volume of the link's shapes. Reports a density below 1 kg/m³ (air) for the smaller of the
-    visual and collision volumes, and a density above 25000 kg/m³ (the heaviest metals have 22600 kg/m³) for the larger
+    visual and collision volumes, and a density above 25000 kg/m³ (the heaviest metals reach 22600 kg/m³) for the larger
     volume. Three kinds of links are not checked: links of at most 10 g, because their mass is usually a placeholder;
     links with meshes; and light shapes of more than 20 m, such as a ground plane.
 

@@ -15,8 +15,8 @@ class AxisNotAlongWheel(RobotRule):
 
     ## What it does
     Compares the axis of each continuous joint with the symmetry axis of its child link. The rule checks a link if all
-    its shapes are discs, which are cylinders wider than long. A link whose name contains ``wheel`` is also checked if
-    it has meshes. Deviations of up to 10 degrees, such as the camber of a wheel, are accepted.
+    its shapes are discs, that is, cylinders that are wider than they are long. A link whose name contains ``wheel`` is
+    also checked if it has meshes. Deviations of up to 10 degrees, such as the camber of a wheel, are accepted.
 
     ## Why is this bad?
     The wheel tumbles instead of rolling, and the robot does not drive.

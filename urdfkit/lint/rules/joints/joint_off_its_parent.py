@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class JointOffItsParent(RobotRule):
-    """A joint is outside or inside its parent link; all other joints are on the surface of their parent links.
+    """A joint is outside or inside its parent link, although all other joints are on the surface of their parent links.
 
     ## What it does
     Compares the positions of ``revolute`` and ``prismatic`` joints, and of fixed joints that carry them, with the

@@ -29,8 +29,8 @@ class JointTypeMissing(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix guesses the type from the other elements. A joint without ``<axis>`` becomes ``fixed``, one with
-    position limits ``revolute``, and any other ``continuous``.
+    Unsafe: the fix guesses the type from the other elements. A joint without ``<axis>`` becomes ``fixed``, a joint with
+    position limits becomes ``revolute``, and any other joint becomes ``continuous``.
     """
 
     code = "J401"

@@ -40,7 +40,7 @@ class LimitsInDegrees(RobotRule):
 
     ## Fix safety
     Unsafe: the fix converts both limits from degrees, but the joint may actually turn that far. No fix is offered if
-    the other limit is no multiple of 0.5.
+    the other limit is not a multiple of 0.5.
     """
 
     code = "J407"

@@ -27,9 +27,9 @@ class SlideOffItsParent(RobotRule):
     touch with the joint at zero but are at least 5 % of the stroke apart at a limit. In addition, one of two
     conditions must hold:
 
-    - With exactly one other axis of the joint frame, the boxes would touch at both limits.
-    - With no axis they would touch at both limits, and the joint moves along a rail: a parent link that is at least
-      three times as long as wide.
+    - Along exactly one other axis of the joint frame, the boxes would touch at both limits.
+    - The boxes would not touch at both limits along any axis, and the joint moves along a rail, that is, a parent link
+      at least three times as long as it is wide.
 
     A column that is longer than its stroke may rise out of its parent link.
 

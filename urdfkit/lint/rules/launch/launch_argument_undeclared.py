@@ -17,7 +17,7 @@ class LaunchArgumentUndeclared(RobotRule):
     ## What it does
     Compares the names in ``$(arg …)``, ``$(var …)`` and ``LaunchConfiguration(…)`` with the declared arguments. In ROS
     2, a launch file can also use the arguments of other launch files. Therefore, a name is reported there only if no
-    launch file of these packages declares it. In addition, the name must be misspelt, or launch files outside of these
+    launch file of these packages declares it. In addition, the name must be misspelt, or launch files outside these
     packages must be unable to declare it. If other launch files declare or pass the argument, but neither the file nor
     its included files declare it, the finding is a warning. A file without declared arguments can inherit them from a
     file that includes it.

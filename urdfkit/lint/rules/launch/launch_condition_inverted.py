@@ -4,7 +4,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LaunchConditionInverted(RobotRule):
-    """A launch file starts nodes under the opposite of their condition.
+    """A launch file starts nodes under an inverted condition.
 
     ## What it does
     Checks the conditions of nodes and includes that depend on an argument such as ``use_sim`` or ``sim_mode``. Sensor

@@ -43,11 +43,11 @@ class LaunchNameMisspelt(RobotRule):
       ``controller_manager`` or a MoveIt plugin
     - keys in YAML files that resemble ``use_sim_time`` or ``robot_description``
     - remapped topics and parameters of common nodes, such as ``teleop_twist_joy_node``, ``slam_toolbox`` and
-      ``parameter_bridge``, also if the node has another name
+      ``parameter_bridge``, even if the node has another name
     - parameters of nodes of the workspace, if the code of the node does not contain the name
     - namespaces of costmaps, which must be ``local_costmap`` or ``global_costmap``
     - worlds without a path, which must be worlds of Gazebo
-    - environment variables of ROS and Gazebo, also those of another version of Gazebo than the launch files start
+    - environment variables of ROS and Gazebo, including those of a Gazebo version that the launch files do not start
 
     Words that differ by more than one letter, or that the file declares as a launch argument, are accepted.
 

@@ -44,7 +44,7 @@ class LaunchValueInvalid(RobotRule):
     - unknown plugins of MoveIt and of navigation, and plugins of the other version of ROS
     - parameter files with substitutions but without ``subst_value``, files that are loaded into the wrong namespace or
       parameter, and MoveIt files that no launch file loads
-    - parameters inside of a node that reads them from another namespace in Python, and private parameters outside of it
+    - parameters inside a node that reads them from another namespace in Python, and private parameters outside it
     - a default planning pipeline that is not loaded, and a pipeline of OMPL without time parameterization
     - planning pipelines outside the namespace of the node ``move_group``
     - ``spawn_model`` without ``-unpause`` in a Gazebo that starts paused, if controllers are spawned

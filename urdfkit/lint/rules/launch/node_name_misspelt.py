@@ -11,8 +11,8 @@ class NodeNameMisspelt(RobotRule):
     and with the ``node_names`` of lifecycle managers. Reports names that differ by one letter. Also reports parameter
     files without a section for the node that loads them, if another file has this section. Files with ``/**`` are not
     checked, because their parameters apply to every node. Also reports nodes whose only section is in another
-    namespace; the namespaces of groups and includes count. In ROS 1, the rule reports nodelets whose manager has
-    another name.
+    namespace; the comparison includes the namespaces of groups and includes. In ROS 1, the rule reports nodelets whose
+    manager has another name.
 
     ## Why is this bad?
     The node starts without its parameters and without an error. A lifecycle manager waits for a node that never

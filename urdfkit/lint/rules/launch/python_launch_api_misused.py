@@ -22,7 +22,7 @@ class PythonLaunchApiMisused(RobotRule):
     - attributes of XML launch files such as ``pkg``, and keyword arguments of Foxy such as ``node_executable``
     - calls of launch classes that lack an argument, or pass one without its keyword
     - substitutions that Python code, an f-string or xacro uses as strings
-    - lists without brackets or inside of other lists, unknown values of ``output``, and ``items`` without a call
+    - lists without brackets or inside other lists, unknown values of ``output``, and ``items`` without a call
     - strings that equal the name of an unused variable
     - calls of the file's own functions that lack an argument
     - the string value of a launch argument that is used as a Boolean, or compared with a Boolean

@@ -15,7 +15,7 @@ class SimulationTimeInconsistent(RobotRule):
       of the same package in the file sets this parameter
     - filters, localization, navigation servers, ``move_group`` and servo nodes without ``use_sim_time``, if
       ``robot_state_publisher`` or RViz sets it
-    - in files that always start Gazebo, such nodes and included launch files with a ``use_sim_time`` of false
+    - in files that always start Gazebo, such nodes and included launch files that set ``use_sim_time`` to false
     - in these files, includes that do not pass ``use_sim_time``, if its default is false and another include passes it
 
     Parameter files are read too. Launch files that set the parameter for all nodes are not checked.

@@ -48,7 +48,7 @@ class PrefixMissing(SourceRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the prefix, but another link may be meant.
+    Unsafe: the fix writes the prefix, but a different link may be intended.
     """
 
     code = "N304"

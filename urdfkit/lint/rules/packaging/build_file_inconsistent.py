@@ -71,8 +71,8 @@ class BuildFileInconsistent(RobotRule):
     ``catkin_package()``, and the spelling of commands, variables and packages. Reports missing files and folders that
     ``install`` or a test names. Also reports folders and scripts that launch files use but that are not installed, or
     are installed in the wrong place. The source files of targets must exist, and commands for a target must name a
-    defined target. If a target includes a header of its package, a target must compile the code next to it or with its
-    name. A target that includes headers of a message package must depend on this package.
+    defined target. If a target includes a header of its package, a target must compile the source file next to the
+    header or with the same name. A target that includes headers of a message package must depend on this package.
 
     Code must be generated for all message, service and action files, with the packages of their types in
     ``DEPENDENCIES``. package.xml must contain the group and the packages that generated messages need.

@@ -11,14 +11,15 @@ class CodeImportUndefined(RobotRule):
 
     - names of messages, services and actions of these packages that do not exist, such as a service that is imported
       from ``.msg``
-    - the same for the modules of std_msgs, std_srvs, geometry_msgs and trajectory_msgs, which have one kind only
+    - the same for the modules of std_msgs, std_srvs, geometry_msgs and trajectory_msgs, which contain only one kind of
+      interface
     - modules that are imported by the name of their file from another module of the same package. This works only if
       the node is started in the folder of the file
 
-    Imports below a condition or in a function are not checked.
+    Imports under a condition or in a function are not checked.
 
     ## Why is this bad?
-    The node stops at once with an ``ImportError``, or the build fails at the missing header.
+    The node stops at once with an ``ImportError``, or the build fails because a header is missing.
 
     ## Example
     ```diff title="scripts/server.py"

@@ -24,8 +24,8 @@ class ControllerContradictsWheels(RobotRule):
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
     accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
     robot turns. If the controller has a ``wheel_separation_multiplier``, the larger separation is reported, because the
-    multiplier already compensates for the slip. Of wheels with meshes, only round collision shapes count. A left and a
-    right wheel at the same place are reported.
+    multiplier already compensates for the slip. For wheels with meshes, the rule uses only round collision shapes. A
+    left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 

@@ -13,7 +13,7 @@ class NavigationSettingsInconsistent(RobotRule):
     - a local costmap that does not move with the robot
     - a global frame that moves with the robot, or differs from the frame of the static map
     - an inflation radius below the inscribed radius of the footprint
-    - footprints whose sides cross or that do not contain the origin, and a radius next to a footprint
+    - footprints whose sides cross or that do not contain the origin, and a radius in addition to a footprint
     - a local costmap that is updated too rarely for the speed of the robot
     - parameters of teb_local_planner that belong to another type of footprint or have no effect
     - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners

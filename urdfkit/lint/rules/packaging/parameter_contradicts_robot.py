@@ -13,8 +13,8 @@ class ParameterContradictsRobot(RobotRule):
       tolerance of 10 %
     - the length of a segment, such as ``thigh_length``, that differs by more than 2 % from the links with this name
     - a list of x or y coordinates that does not fit the list of names in the same section
-    - a controller that takes commands by index, such as ``ForwardCommandController``, whose joints are in another order
-      than in the parameters of a node, or in another order for one limb than for the others
+    - a controller that takes commands by index, such as ``ForwardCommandController``, whose joints are in a different
+      order from those in the parameters of a node, or whose order for one limb differs from that for the others
 
     The rule does not check wheels if another description in these packages has continuous joints.
 

@@ -34,7 +34,7 @@ class ParameterValueInvalid(RobotRule):
     - lists of joint positions that lack a value, and positions that exceed the limits of a joint because they are in
       degrees or millimetres
     - positions of a single joint, and ``initial_positions`` of MoveIt, beyond the limits
-    - lists of joints in a different order than the comment on their values states
+    - lists of joints whose order differs from that in the comment on their values
     - minimum velocities above zero, and parameters with the indentation of a controller name
 
     ## Why is this bad?

@@ -21,7 +21,7 @@ class FootprintOffTheGround(RobotRule):
 
     ## Why is this bad?
     The footprint is the point on the ground below the robot (REP 120). If it is above or below the wheels, the robot
-    floats above the map or sinks into it, and its sensors measure at a wrong height.
+    floats above the map or sinks into it, and its sensors measure at the wrong height.
 
     ## Example
     ```diff

@@ -11,7 +11,7 @@ class LinksOverlap(RobotRule):
     shapes of links without collision shapes. Reports four cases:
 
     - A joint places a link, with all parts that it carries, completely inside the parent link.
-    - Two links that move against each other have the same shape at the same place.
+    - Two links that move relative to each other have the same shape in the same place.
     - The centre of a link is inside a link that is at least two joints closer to the root, such as a hand in an upper
       arm. Both links must have a single shape. Stages of telescopes and joints whose limits exclude zero are not
       compared.

@@ -4,7 +4,7 @@ from urdfkit.lint.rule import FaultRule
 
 
 class IncludeCycle(FaultRule):
-    """A file includes itself, or a macro calls itself, without end.
+    """A file includes itself, or a macro calls itself, in an infinite recursion.
 
     ## What it does
     Checks for cycles of includes and macro calls.

@@ -28,8 +28,8 @@ class PropertyUsedBeforeDefinition(FaultRule):
 
     ## Fix safety
     Unsafe: if the use is in an included file, the fix moves the include, with everything that the file defines, after
-    the definition. Within one file, the fix moves the definition before its first use. Properties that the definition
-    uses may be defined only after this place.
+    the definition. Within one file, the fix moves the definition before its first use. The definition may use
+    properties that are defined only after its new position.
     """
 
     code = "X105"
