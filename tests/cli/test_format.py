@@ -51,7 +51,7 @@ def test_generated_and_broken_files(absolute: bool, folder: Path, capsys: pytest
     assert main(["format", str(folder) if absolute else "."]) == 2
     errors = capsys.readouterr().err.splitlines()
     assert errors == [
-        "urdfkit: broken.urdf:1:8: the file ends too early: `<robot>` of line 1 is not closed",
+        "urdfkit: broken.urdf:1:8: the file ends too early: `<robot>` on line 1 is not closed",
         "urdfkit: latin.urdf:1:14: byte 0xE9 is not UTF-8; save the file as UTF-8 and format it again",
         "urdfkit: made.urdf is skipped: a comment on line 1 marks it as generated; name the file to format it",
         "1 file formatted, 1 file unchanged",

@@ -286,7 +286,7 @@ MASS = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz=
     ("content", "reported"),
     [
         ("<link name='a'/>", "2:7: link `a` has no <inertial>, but the robot is free to move"),
-        ("<link", "2:5: `>` is missing before the `<` of line 3"),
+        ("<link", "2:5: `>` is missing before the `<` on line 3"),
         (
             f"<link name='a'><collision><geometry>\n<mesh filename='gone.stl'/></geometry></collision>{MASS}</link>",
             "3:1: ",

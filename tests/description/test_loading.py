@@ -47,7 +47,7 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
         (model(links("a", "b"), joint("j", "a", "b", "revolute", '<limit lower="0" upper="1"/>')), "3:68", "joint `j`: <limit> has no attribute `effort`"),
         (model(links("a", "b"), joint("j", "a", "b", "continuous", '<axis xyz="0 0 0"/>')), "3:70", "the axis of joint `j` is zero"),
         (model(links("a", "b"), joint("j", "a", "b", "continuous", '<mimic joint="k"/>')), "3:70", "mimics the unknown joint `k`"),
-        (model(links("a"), '<link name="b"><inertial><mass value="1,5"/></inertial></link>'), "3:26", "link `b`: value of <mass>: `1,5` is not a number (a decimal comma: write a decimal point)"),
+        (model(links("a"), '<link name="b"><inertial><mass value="1,5"/></inertial></link>'), "3:26", "link `b`: value of <mass>: `1,5` is not a number (write a decimal point instead of the comma)"),
         (model("<link/>"), "2:1", "a <link> has no name"),
         (model('<xacro:wheel side="left"/>'), "1:1", "rename it to .urdf.xacro"),
         ("<sdf version='1.6'/>", "1:1", "this is an SDF file"),

@@ -69,7 +69,7 @@ MISTAKES = [
     (FORWARDS, "ekf.yaml", "false, false, true,", "false, false, false,", "K983", 12, "does not fuse vyaw; yaw drifts"),
     (FORWARDS, "ekf.yaml", "mode: true", "mode: false", "K983", 7, "no input fuses z or vz"),
     (FORWARDS, "ekf.yaml", "config: [false, false", "config: [true, true", "K983", 9, "fuse the velocities only"),
-    (FORWARDS, "ekf.yaml", "[0.1, 0.1, ", "[0.1, ", "K971", 15, "has 14 values; 15 or 225 are needed"),
+    (FORWARDS, "ekf.yaml", "[0.1, 0.1, ", "[0.1, ", "K971", 15, "has 14 values; it must have 15 or 225"),
     (FORWARDS, "nav2.yaml", "DifferentialM", "OmniM", "K982", 4, "but the base cannot move sideways"),
     (FORWARDS, "nav2.yaml", "model: DiffDrive", "model: Omni", "K982", 9, "but the base cannot move sideways"),
 ]
@@ -145,7 +145,7 @@ def test_a_row_of_a_covariance_in_ros1(tmp_path):
         (tmp_path / name).write_text(text)
     [found] = [one for one in lint(tmp_path) if one.file.endswith(".yaml")]
     assert (found.code, found.line) == ("K971", 8)
-    assert "has 224 values; 225 are needed" in found.message
+    assert "has 224 values; it must have 225" in found.message
 
 
 @pytest.mark.parametrize(("count", "is_complete"), [(15, False), (225, True)])

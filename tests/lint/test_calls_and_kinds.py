@@ -63,13 +63,13 @@ GENERATE = "generate_messages(DEPENDENCIES std_msgs)\n"
             "CMakeLists.txt",
             "(INCLUDE_DIRS include",
             "(include",
-            "CMakeLists.txt:11: `include` follows no keyword of catkin_package()",
+            "CMakeLists.txt:11: `include` does not follow a keyword of catkin_package()",
         ),
         (
             "CMakeLists.txt",
             "CATKIN_DEPENDS",
             "LIBRARIES",
-            "CMakeLists.txt:11: `message_runtime` is a package of catkin, which belongs to CATKIN_DEPENDS",
+            "CMakeLists.txt:11: `message_runtime` is a catkin package; list it in CATKIN_DEPENDS",
         ),
         (
             "CMakeLists.txt",

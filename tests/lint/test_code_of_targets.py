@@ -294,7 +294,7 @@ MANIFEST_OF_CATKIN = """<package format="2">
         ),
         ("  roscpp\n", '  roscpp\n  ""\n', []),
         ("(drive src/drive.cpp)", "(drive src/drive.cpp)\nadd_library(part src/drive.cpp)", []),
-        ("CATKIN_DEPENDS", "DEPENDS", ["10: `roscpp` is a package of catkin, which belongs to CATKIN_DEPENDS"]),
+        ("CATKIN_DEPENDS", "DEPENDS", ["10: `roscpp` is a catkin package; list it in CATKIN_DEPENDS"]),
     ],
 )
 def test_targets_of_catkin(tmp_path, monkeypatch, old, new, expected):

@@ -149,7 +149,7 @@ def test_a_private_node_handle_does_not_read_global_topics(tmp_path, monkeypatch
             "[height, width]",
             "[jaw_width, lift]",
             18,
-            "joint `lift_joint` gets `jaw_width`, which is named after `jaw_joint`; compare the order",
+            "joint `lift_joint` gets `jaw_width`, which is named after `jaw_joint`; check the order",
         ),
         ("[height, width]", "[height]\n        point.positions.append(width)", 0, ""),
         (
@@ -221,5 +221,5 @@ def test_an_action_server_that_never_succeeds(tmp_path, monkeypatch, old, new, e
     assert found(tmp_path) == []
     assert SERVER.count(old) == 1
     write(tmp_path, {"cart/tipper.py": SERVER.replace(old, new)})
-    message = "`execute` does not call succeed() of its goal, so that the action ends as aborted"
+    message = "`execute` does not call succeed() of its goal, so the goal is aborted"
     assert found(tmp_path) == ([("cart/tipper.py", 17, message)] if expected else [])

@@ -38,8 +38,8 @@ LEG = (
     [
         ("0 0 -0.3", "0 0 -0.2", ""),
         ("0 0.04 -0.3", "0 0.01 -0.2", ""),
-        ("0 0 -0.3", "0 0 0.2", "joint `foot_joint` is -0.2 m along `shank`, not at its end, at 0.2 m"),
-        ("0 0.04 -0.2", "0 0 -0.2", "joint `shank_joint` is 0.2 m along `thigh`, not at its end, at 0.3 m"),
+        ("0 0 -0.3", "0 0 0.2", "joint `foot_joint` is at -0.2 m along `shank`, not at the end of the link, 0.2 m"),
+        ("0 0.04 -0.2", "0 0 -0.2", "joint `shank_joint` is at 0.2 m along `thigh`, not at the end of the link, 0.3 m"),
         ("0 0.2 -0.2", "0 0 -0.2", ""),  # far from the axis of the thigh
         ("0 0 -0.3", "0 0 0", ""),  # at the knee
     ],

@@ -43,12 +43,12 @@ def computed(expression: str) -> str:
 HOSTILE = {
     "power.xacro": (computed("9**9**9"), "X126 `${9**9**9}` is too large: it creates an integer of more than 10,000"),
     "text.xacro": (computed("'x' * 3 * 10**9"), "a string of more than 100,000 characters"),
-    "list.xacro": (computed("[0] * 10**10"), "lists of more than 100,000 elements in all"),
-    "range.xacro": (computed("list(range(10**9))"), "lists of more than 100,000 elements in all"),
+    "list.xacro": (computed("[0] * 10**10"), "lists of more than 100,000 elements in total"),
+    "range.xacro": (computed("list(range(10**9))"), "lists of more than 100,000 elements in total"),
     "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "exceed 1,000,000 steps"),
     "format.xacro": (computed("'%099999999d' % 1"), "a string of more than 100,000 characters"),
     "factorial.xacro": (computed("factorial(10**7)"), "it calls factorial() with more than 1,000"),
-    "sum.xacro": (computed("python.sum(python.range(10**12))"), "lists of more than 100,000 elements in all"),
+    "sum.xacro": (computed("python.sum(python.range(10**12))"), "lists of more than 100,000 elements in total"),
     "deep.xacro": (computed("1+" * 4000 + "1"), "nested"),
     "macros.xacro": (
         f"<robot {XACRO} name='r'><xacro:macro name='m0'><link name='x'/></xacro:macro>{MACROS}<xacro:m8/></robot>",

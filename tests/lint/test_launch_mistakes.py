@@ -613,7 +613,7 @@ MISTAKES = [
         20,
         "both publish the transform from the map frame to the odometry frame if `slam` is true",
     ),
-    ("parameters", "'settings'", 29, "is the text `settings`; write the variable `settings` without quotes"),
+    ("parameters", "'settings'", 29, "is the string `settings`; write the variable `settings` without quotes"),
     ("parameters", "*common, {'use_stampd': True}", 29, "unknown parameter `use_stampd`"),
     ("nodes", "filter", 17, "Node `right` is not added to the launch description"),
     ("end", "", 31, "does not return a LaunchDescription"),
@@ -861,7 +861,7 @@ VALUES = {
             "d",
             "cart_model",
             10,
-            "no other file names `cart_model`, so `joint_state_publisher` is without",
+            "no other file names `cart_model`, so `joint_state_publisher` receives no description",
         ),
     ],
 )
@@ -901,7 +901,7 @@ def test_the_code_is_read_once_for_all_remapped_descriptions(tmp_path, monkeypat
     for count in (1, 20):
         reads.clear()
         write(cart / "launch/c.launch.xml", f"<launch>\n{''.join(map(node.format, range(count)))}</launch>\n")
-        assert sum("is without a description" in row[2] for row in found(cart, "K980")) == count
+        assert sum("receives no description" in row[2] for row in found(cart, "K980")) == count
         counts.append(len(reads))
     assert counts[0] == counts[1]
 

@@ -62,11 +62,11 @@ def generate_launch_description():
     ])
 """
 MISTAKES = [
-    ("on_exit=others", "on_exit=[others]", 38, "this list of actions is inside of another list; write `*` before it"),
+    ("on_exit=others", "on_exit=[others]", 38, "this list of actions is inside another list; write `*` before it"),
     ("[name, ", '["name", ', 13, "`name` in quotes is a string, not the variable `name`; write it without quotes"),
     ("[name, ", "[name + ", 13, "no comma before this option: it becomes part of the word before it"),
     ('"--quiet"', '"--quiet "', 13, "`--quiet ` ends with a blank, so it is an unknown option"),
-    ("list(more)", 'list("more")', 13, "this makes a list of single letters; write the string in brackets"),
+    ("list(more)", 'list("more")', 13, "this creates a list of single letters; write the string in brackets"),
     ('*["--fast"]', '["d", "e"]', 31, "the strings of this inner list become one word, `de`; write `*` before it"),
     (
         ".perform(context).lower",
@@ -84,7 +84,7 @@ MISTAKES = [
         "model.toxml()",
         "model",
         24,
-        "`robot_description` is an XML document and not its text; write `.toxml()` after it",
+        "`robot_description` is an XML document, not its text; write `.toxml()` after it",
     ),
     ("words.items()", "words", 18, "`launch_arguments` is a dictionary; write `.items()` after it"),
     (
@@ -128,7 +128,7 @@ def test_a_mistake_has_one_finding_at_its_line(tmp_path, old, new, line, message
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("[common, ", "[[common], ", "this list of parameters is inside of another list; write `*` before it"),
+        ("[common, ", "[[common], ", "this list of parameters is inside another list; write `*` before it"),
         (
             '{"rate": LaunchConfiguration("speed")}',
             'LaunchConfiguration("quiet")',

@@ -183,13 +183,13 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         "E022",
         "classic",
         {"r.urdf": robot(BASE, attributes=' version="1.1"')},
-        [f"r.urdf:1: error: Gazebo Classic reads URDF 1.0 only, and the robot is URDF 1.1 | {OLD_URDF}"],
+        [f"r.urdf:1: error: Gazebo Classic reads URDF 1.0 only, but the robot is URDF 1.1 | {OLD_URDF}"],
     ),
     "URDF 1.2 in Noetic": (
         "E022",
         "ros1-noetic",
         {"r.urdf": robot(BASE, attributes=' version="1.2"')},
-        [f"r.urdf:1: error: ROS 1 Noetic reads URDF 1.0 only, and the robot is URDF 1.2 | {OLD_URDF}"],
+        [f"r.urdf:1: error: ROS 1 Noetic reads URDF 1.0 only, but the robot is URDF 1.2 | {OLD_URDF}"],
     ),
     "URDF 1.1 in any release": (
         "E022",
@@ -597,7 +597,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         [
             (
                 "r.urdf.xacro:3: note: file config/ur5x.yaml does not exist; did you mean `ur5.yaml`?"
-                " | pass model:=value: its default selects no file"
+                " | pass model:=value: its default selects no existing file"
             )
         ],
     ),
@@ -614,7 +614,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         [
             (
                 "r.urdf.xacro:3: note: included file none.xacro does not exist"
-                " | pass model:=value: its default selects no file"
+                " | pass model:=value: its default selects no existing file"
             )
         ],
     ),

@@ -354,7 +354,7 @@ MISTAKES = [
         8,
         "above the scanner `laser` at 0.3 m, so no point is used",
     ),
-    (ROS1, "gmapping.yaml", "odom_frame: odom", "odom_frame: drive/odom", "K984", 2, "is a topic and not a frame"),
+    (ROS1, "gmapping.yaml", "odom_frame: odom", "odom_frame: drive/odom", "K984", 2, "is a topic, not a frame"),
     (ROS1, "gmapping.yaml", "Urange: 7.0", "Urange: 70.0", "K979", 4, "the scanner measures up to 8 m"),
     (ROS1, "cart.urdf", "<robotNamespace>/<", "<robotNamespace>/cart<", "K960", 0, "start.launch:3 is in no namespace"),
     (

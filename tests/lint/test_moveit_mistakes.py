@@ -84,7 +84,7 @@ FILES = {
 }
 MISTAKES = [
     ("arm.srdf", 'group="hand" parent_group', 'group="all" parent_group', "M105", 12, "contains its parent group"),
-    ("arm.srdf", 'value="-0.5"', 'value="0.5"', "M107", 10, "mimics `left_finger`, whose value makes it -0.5, not 0.5"),
+    ("arm.srdf", 'value="-0.5"', 'value="0.5"', "M107", 10, "mimics `left_finger`, so its value is -0.5, not 0.5"),
     ("arm.srdf", '<group name="all">', '<group name="arm">', "M106", 4, "duplicate group `arm`"),
     (
         "arm.srdf",
@@ -111,7 +111,7 @@ MISTAKES = [
         "all:",
         "M109",
         1,
-        "no chain: `left_finger` and `right_finger` are on different branches",
+        "not a chain: `left_finger` and `right_finger` are on different branches",
     ),
     (
         "kinematics.yaml",

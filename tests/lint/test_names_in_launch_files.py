@@ -42,7 +42,7 @@ SIMULATED = (
 )
 MAPPING = '<node pkg="gmapping" type="slam_gmapping" name="m"><param name="base_frame" value="{}"/></node>'
 TO_TOOL = STATIC.format("base_link tool")
-BOTH = "`respawn` and `required` are both true, which roslaunch refuses; remove one"
+BOTH = "`respawn` and `required` are both true, which roslaunch rejects; remove one"
 FILTER = '<node pkg="robot_localization" exec="ekf_node" name="ekf"><remap from="{}/></node>'
 CASES = [
     (1, STICK, "10", "0.1", "`deadzone` is 10, more than 1"),

@@ -183,7 +183,7 @@ CLASS = '  <class name="cart/Slow" type="cart::Slow" base_class_type="cart::Plan
             "CMakeLists.txt",
             "(export_cart)",
             "(export_crat)",
-            "CMakeLists.txt:22: no install() makes the export `export_crat`; did you mean `export_cart`?",
+            "CMakeLists.txt:22: no install() creates the export `export_crat`; did you mean `export_cart`?",
         ),
         (
             "CMakeLists.txt",
@@ -201,7 +201,7 @@ CLASS = '  <class name="cart/Slow" type="cart::Slow" base_class_type="cart::Plan
             "CMakeLists.txt",
             "part LIBRARY DESTINATION lib)",
             "part LIBRARY DESTINATION lib/${PROJECT_NAME})",
-            "CMakeLists.txt:18: library `part` is installed to `lib/cart`, but programs search it in `lib`",
+            "CMakeLists.txt:18: library `part` is installed to `lib/cart`, but programs search for it in `lib`",
         ),
         (
             "CMakeLists.txt",
@@ -234,7 +234,7 @@ CLASS = '  <class name="cart/Slow" type="cart::Slow" base_class_type="cart::Plan
             "CMakeLists.txt",
             "TARGETS part LIBRARY",
             "TARGETS LIBRARY",
-            "CMakeLists.txt:18: install(TARGETS) names nothing to install",
+            "CMakeLists.txt:18: install(TARGETS) does not name anything to install",
         ),
         (
             "CMakeLists.txt",

@@ -126,7 +126,7 @@ def test_a_section_with_the_name_of_its_node_is_loaded_outside_of_the_node(
         cart / "launch/cart.launch",
         f'<launch>\n<node pkg="{package_name}" type="ekf" name="{node}">\n{inside}\n</node>\n</launch>\n',
     )
-    message = "the only section of ekf.yaml is `ekf`, so its parameters are in `/ekf/ekf`; load it outside of the node"
+    message = "the only section of ekf.yaml is `ekf`, so its parameters are in `/ekf/ekf`; load it outside the node"
     assert found(cart, "L110") == ([("cart.launch", 3, message)] if is_reported else [])
 
 

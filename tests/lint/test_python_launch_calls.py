@@ -55,7 +55,7 @@ def generate_launch_description():
     ])
 """
 MISTAKES = [
-    ("period=2.0, ", "2.0, ", "timer = ", "`TimerAction` accepts this argument by its keyword only; write `period=`"),
+    ("period=2.0, ", "2.0, ", "timer = ", "`TimerAction` accepts this argument only by keyword; write `period=`"),
     ("function=more", "more", "OpaqueFunction(more", "write `function=` before it"),
     (
         '"use_sim_time", True',
@@ -68,10 +68,10 @@ MISTAKES = [
     ('"HOME", default_value="/"', '"HOME", "/"', '"HOME", "/"', "write `default_value=` before this argument"),
     ('choices=["a", "b"]', "choices=[True, False]", "choices", "a choice is not a string; write it in quotes"),
     ("perform(context)", "perform()", "perform()", "`perform` needs the launch context"),
-    ('["--file", path]', '["--file " + path]', '["--file', "a text and a `PathJoinSubstitution` cannot be added"),
+    ('["--file", path]', '["--file " + path]', '["--file', "a string and a `PathJoinSubstitution` cannot be added"),
     ('["--file", path]', '[f"--file={path}"]', '[f"--file', "an f-string has no access to the value of a `PathJoin"),
     ("    return nodes", "", "name=mode", "the function `more` of an OpaqueFunction does not return its actions"),
-    ("value_type=str", 'value_type="str"', "value_type", "`value_type` is a text; write a type, such as `str`"),
+    ("value_type=str", 'value_type="str"', "value_type", "`value_type` is a string; write a type, such as `str`"),
     ("remappings=common", "remappings=[common]", "remappings", "an item of `remappings` is a list of pairs"),
     ("remappings=common", 'remappings=[["joy", "cart/joy"]]', "remappings", "is a list; write a tuple, ("),
     ("target_action=joy, on_exit=[home]", "joy, [home]", "OnProcessExit(joy", "write `target_action=` before it"),

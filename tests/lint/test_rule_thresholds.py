@@ -228,11 +228,11 @@ def test_a_value_on_either_side_of_a_threshold(code: str, body: str, value: str,
 @pytest.mark.parametrize(
     ("code", "body", "message"),
     [
-        ("I510", same_tensors("2 2 2"), "3 links of different size share this inertia: part_0, part_1, part_2"),
+        ("I510", same_tensors("2 2 2"), "3 links of different sizes share this inertia: part_0, part_1, part_2"),
         (
             "I510",
             same_tensors("2 2 2") + link(inertial("2"), name="part_3"),
-            "4 links of different size share this inertia: part_0, part_1, part_2 …",
+            "4 links of different sizes share this inertia: part_0, part_1, part_2 …",
         ),
         ("J409", disc('<limit effort="0" velocity="1"/>'), "effort limit of joint `to_wheel` is zero"),
         ("J409", disc('<limit effort="0" velocity="0"/>'), "effort and velocity limits of joint `to_wheel` are zero"),

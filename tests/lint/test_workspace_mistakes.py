@@ -22,7 +22,7 @@ RUN_TIME = (
 SRDF = "gofer_moveit_config/config/gofer.srdf"
 OUTSIDE = (
     "parent frame `tcp` of virtual joint `odom_joint` is a link of the robot "
-    "write a frame outside of the robot, such as `world`"
+    "write a frame outside the robot, such as `world`"
 )
 CARRIES = (
     "parent link `boom` of end effector `jaw_ee` does not carry group `jaw` write `hand`, or a link that is fixed to it"
@@ -31,11 +31,12 @@ FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot has drive 
 NEVER = "the reason is `Never`, but a joint connects links `turret` and `boom` write `Adjacent`"
 URDF = "titan_description/urdf/titan.urdf.xacro"
 OUTSIDE_PARENT = (
-    "joint `joint_3` is 0.5 m outside of its parent link `upper_arm_link`; "
+    "joint `joint_3` is 0.5 m outside its parent link `upper_arm_link`; "
     "all other moving joints are at their parent links check the axes, signs and units of the origin"
 )
 OPPOSITE_END = (
-    "joint `joint_3` is -0.25 m along `upper_arm_link`, not at its end, at 0.25 m check the sign of the origin"
+    "joint `joint_3` is at -0.25 m along `upper_arm_link`, not at the end of the link, 0.25 m "
+    "check the sign of the origin"
 )
 STROKE = (
     "joint `joint_3` slides from -2.4 to 2.4 m, but the whole robot extends 1.09 m "

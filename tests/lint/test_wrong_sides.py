@@ -315,7 +315,7 @@ def test_an_action_in_the_place_of_another_one_gives_one_finding(tmp_path):
     write(cart / "urdf/cart.urdf", '<robot name="cart"><link name="base"/></robot>')
     (found,) = [each for each in lint(cart) if each.code in ("L106", "L107")]
     assert (found.code, found.line) == ("L107", 14)
-    assert found.help == "`second` waits for its own exit; `third` is probably meant"
+    assert found.help == "`second` waits for its own exit; `third` is probably intended"
 
 
 LISTS = """from launch import LaunchDescription

@@ -117,7 +117,7 @@ def test_a_wrong_call_is_refused_in_one_line_that_names_the_argument(folder: Pat
                 'picture: `joints` is {"a": "b"}, not an object of numbers',
             ),
             ("lint", {"arguments": [1]}, "lint: `arguments` is [1], not an object of strings"),
-            ("lint", {"path": "../x"}, f"`../x` is outside of the folder {folder}; the server reads no other folder"),
+            ("lint", {"path": "../x"}, f"`../x` is outside the folder {folder}; the server reads no other folder"),
             ("lnit", {}, "unknown tool `lnit`; did you mean `lint`?"),
         ):
             refused = await client.call_tool(tool, arguments)
@@ -165,7 +165,7 @@ def test_a_call_reads_nothing_outside_of_its_folder_and_ends(folder: Path) -> No
         for path in ("../secret.xacro", "/etc/passwd", "link.urdf", "--help", "a\0b"):
             for tool in ("lint", "fix"):
                 assert "hidden" not in await text(tool, path=path)
-                assert "is outside of the folder" in (said := await text(tool, path=path)) or "is not a path" in said
+                assert "is outside the folder" in (said := await text(tool, path=path)) or "is not a path" in said
         for robot in ("reads.xacro", "includes.xacro", "variable.xacro"):
             said = await text("info", robot=robot)
             assert "hidden" not in said

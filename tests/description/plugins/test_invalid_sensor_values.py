@@ -23,7 +23,7 @@ def scan(fan: str = "", bounds: str = "<min>0.1</min><max>9</max>") -> str:
         ("<update_rate>0</update_rate>", []),
         (
             "<update_rate>-1</update_rate>",
-            ["<update_rate> is -1 Hz; it must not be negative; zero updates at every step"],
+            ["<update_rate> is -1 Hz; it must not be negative; with zero, the sensor updates at every step"],
         ),
         ("<update_rate>fast</update_rate>", ["<update_rate> is `fast`, not a number"]),
         ("<update_rate/><samples>nan</samples>", []),
@@ -51,12 +51,12 @@ def test_numbers(inside: str, expected: list[str]) -> None:
         (scan(bounds="<min>5</min><max>5</max>"), [("min", "the range of the lidar, 5 m to 5 m, is empty")]),
         (scan(bounds="<min>5</min><max>far</max>"), []),
         (scan("<samples>1</samples>"), []),
-        (scan("<samples>0.5</samples>"), [("samples", "<horizontal> has 0.5 samples; it must be one or more")]),
+        (scan("<samples>0.5</samples>"), [("samples", "<horizontal> has 0.5 samples; it must have at least one")]),
         (scan("<samples>1.5</samples>"), [("samples", "<samples> is 1.5; it must be a whole number")]),
         (scan("<resolution>0.001</resolution>"), []),
         (
             scan("<resolution>0</resolution>"),
-            [("resolution", "<resolution> is 0; it must be greater than zero: it is multiplied with <samples>")],
+            [("resolution", "<resolution> is 0; it must be greater than zero: it is multiplied by <samples>")],
         ),
         (
             scan("<samples>4</samples><resolution>0.1</resolution>"),
@@ -65,7 +65,7 @@ def test_numbers(inside: str, expected: list[str]) -> None:
         (scan("<min_angle>0</min_angle>"), []),
         (
             scan("<min_angle>1</min_angle>"),
-            [("min_angle", "<horizontal> goes from 1 to 0 rad: the smaller angle is <min_angle>")],
+            [("min_angle", "<horizontal> goes from 1 to 0 rad: <min_angle> must be the smaller angle")],
         ),
         (
             scan("<samples>9</samples><min_angle>1</min_angle><max_angle>1</max_angle>"),
@@ -75,7 +75,7 @@ def test_numbers(inside: str, expected: list[str]) -> None:
         (scan("<samples>9</samples><min_angle>0</min_angle><max_angle>0</max_angle>"), []),
         (
             scan("<max_angle>-1</max_angle>"),
-            [("max_angle", "<horizontal> goes from 0 to -1 rad: the smaller angle is <min_angle>")],
+            [("max_angle", "<horizontal> goes from 0 to -1 rad: <min_angle> must be the smaller angle")],
         ),
     ],
 )

@@ -159,11 +159,11 @@ def link(inside: str) -> str:
 @pytest.mark.parametrize(
     ("text", "kind", "message", "attribute"),
     [
-        (link('<visual><origin xyz="0,5 0 0"/><geometry><sphere radius="1"/></geometry></visual>'), "bad-number", "decimal comma", "xyz"),
+        (link('<visual><origin xyz="0,5 0 0"/><geometry><sphere radius="1"/></geometry></visual>'), "bad-number", "write a decimal point", "xyz"),
         (link('<visual><origin rpy="0, 0, 0"/><geometry><sphere radius="1"/></geometry></visual>'), "bad-number", "not commas", "rpy"),
-        (link('<visual><origin xyz="0 0"/><geometry><sphere radius="1"/></geometry></visual>'), "wrong-arity", "expected 3, found 2", "xyz"),
-        (link('<visual><geometry><box size="1"/></geometry></visual>'), "wrong-arity", "expected 3, found 1", "size"),
-        (link('<visual><geometry><sphere radius="1 2"/></geometry></visual>'), "wrong-arity", "expected 1, found 2", "radius"),
+        (link('<visual><origin xyz="0 0"/><geometry><sphere radius="1"/></geometry></visual>'), "wrong-arity", "expected 3 numbers, found 2", "xyz"),
+        (link('<visual><geometry><box size="1"/></geometry></visual>'), "wrong-arity", "expected 3 numbers, found 1", "size"),
+        (link('<visual><geometry><sphere radius="1 2"/></geometry></visual>'), "wrong-arity", "expected 1 number, found 2", "radius"),
         (link('<visual><geometry><sphere radius="${r}"/></geometry></visual>'), "bad-number", "not evaluated", "radius"),
         (link('<visual><geometry><sphere radius="5cm"/></geometry></visual>'), "bad-number", "SI", "radius"),
         (link('<visual><geometry><sphere radius=""/></geometry></visual>'), "bad-number", "empty", "radius"),

@@ -230,7 +230,7 @@ def test_an_error_in_an_included_file_is_placed_there(write: Write) -> None:
     with pytest.raises(XmlError) as caught:
         expand(write("m.xacro", 'HEAD<xacro:include filename="inner.xacro"/></robot>'))
     assert str(caught.value).startswith(
-        "inner.xacro:3:3: mismatched tag: `<link>` is not closed before `</robot>` of line 4"
+        "inner.xacro:3:3: mismatched tag: `<link>` is not closed before `</robot>` on line 4"
     )
 
 

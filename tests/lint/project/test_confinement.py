@@ -1,4 +1,4 @@
-"""``lint --confined`` opens nothing outside of the package, its workspace and the package path."""
+"""``lint --confined`` opens nothing outside the package, its workspace and the package path."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def test_a_read_that_leads_out_is_refused_with_a_finding(lint, kind) -> None:
     findings, opened, output = lint(READS[kind], "--confined")
     assert outside(opened, lint.secret) == []
     assert "classified" not in output
-    assert any("outside of the package, its workspace and the package path" in each["message"] for each in findings)
+    assert any("outside the package, its workspace and the package path" in each["message"] for each in findings)
 
 
 @pytest.mark.parametrize("kind", NAMED)

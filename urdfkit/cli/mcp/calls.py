@@ -48,7 +48,7 @@ class ToolCalls:
         if re.fullmatch(r"[A-Za-z]\w*", text) and not path.exists():
             return text
         if not path.resolve().is_relative_to(self.root):
-            raise UsageError(f"`{text}` is outside of the folder {self.root}; the server reads no other folder")
+            raise UsageError(f"`{text}` is outside the folder {self.root}; the server reads no other folder")
         return str(path)
 
     def robot(self, text: str, arguments: dict[str, str] | None) -> list[str]:

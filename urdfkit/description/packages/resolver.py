@@ -17,7 +17,7 @@ from urdfkit.missing_files import similar_file
 from urdfkit.position import Position
 
 NOT_READ = "is not read, because --confined hides the environment"
-OUTSIDE = "outside of the package, its workspace and the package path"
+OUTSIDE = "outside the package, its workspace and the package path"
 
 _LONGEST_NAME = 255
 """Length of the longest file name that Linux and macOS accept [bytes]."""

@@ -72,7 +72,10 @@ def senseless_numbers(sensor: Element) -> Senseless:
         if child.text and isnan(value) and child.text.lower() != "nan":
             yield child, f"<{child.tag}> is `{child.text}`, not a number"
         elif child.tag == "update_rate" and value < 0.0:
-            yield child, f"<update_rate> is {value:g} Hz; it must not be negative; zero updates at every step"
+            yield (
+                child,
+                f"<update_rate> is {value:g} Hz; it must not be negative; with zero, the sensor updates at every step",
+            )
 
 
 def _is_wide(angle: Element) -> bool:
@@ -84,7 +87,7 @@ def _unknown_noise(noise: Element) -> tuple[Element, str] | None:
     kind = (written.text if written is not None else noise.get("type")) or "none"
     if kind in NOISES:
         return None
-    return written or noise, f"the type of the noise is `{kind}`, not {', '.join(NOISES)}" + did_you_mean(kind, NOISES)
+    return written or noise, f"unknown noise type `{kind}`; use one of {', '.join(NOISES)}" + did_you_mean(kind, NOISES)
 
 
 def senseless_scan(lidar: Element) -> Senseless:
@@ -104,18 +107,18 @@ def senseless_scan(lidar: Element) -> Senseless:
 def _senseless_fan(fan: Element) -> Senseless:
     samples, resolution = _number(fan, "samples", 640.0), _number(fan, "resolution", 1.0)
     if samples < 1:
-        yield fan.find("samples") or fan, f"<{fan.tag}> has {samples:g} samples; it must be one or more"
+        yield fan.find("samples") or fan, f"<{fan.tag}> has {samples:g} samples; it must have at least one"
     elif isfinite(samples) and samples != int(samples):
         yield fan.find("samples") or fan, f"<samples> is {samples:g}; it must be a whole number"
     elif resolution <= 0:
-        message = f"<resolution> is {resolution:g}; it must be greater than zero: it is multiplied with <samples>"
+        message = f"<resolution> is {resolution:g}; it must be greater than zero: it is multiplied by <samples>"
         yield fan.find("resolution") or fan, message
     elif isfinite(samples * resolution) and round(samples * resolution) < 1:
         yield fan, f"<{fan.tag}> has {samples:g} samples at a resolution of {resolution:g}, which is less than one"
     low, high = _number(fan, "min_angle", 0.0), _number(fan, "max_angle", 0.0)
     place = fan.find("max_angle" if high < 0.0 else "min_angle") or fan
     if low > high:
-        yield place, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
+        yield place, f"<{fan.tag}> goes from {low:g} to {high:g} rad: <min_angle> must be the smaller angle"
     elif low == high != 0.0 and samples > 1:
         yield place, f"<{fan.tag}> has {samples:g} samples, but <min_angle> and <max_angle> are both {low:g} rad"
 
@@ -162,7 +165,7 @@ def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:
             place = places[0] or places[1]
             if place is not None and numbers[0] >= numbers[1]:
                 low, high = (f"<{tag}> {value:g} m" for tag, value in zip(tags, numbers, strict=True))
-                yield place, f"the range from {low} to {high} is empty: <{tags[0]}> must be the smaller"
+                yield place, f"the range from {low} to {high} is empty: <{tags[0]}> must be less than <{tags[1]}>"
 
 
 def _number(parent: Element | None, tag: str, default: float) -> float:

@@ -111,7 +111,7 @@ def invalid_values(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[Element, 
                 yield element, f"<{parameter.tag}> is `{text}`; it must be {wanted}"
     least, most = (_command(plugin, spec, meaning) for meaning in ("min_command", "max_command"))
     if least is not None and most is not None and least[0] > most[0] and (place := most[1] or least[1]) is not None:
-        yield place, f"the least command {least[0]:g} is greater than the greatest {most[0]:g}"
+        yield place, f"the minimum command {least[0]:g} is greater than the maximum {most[0]:g}"
 
 
 def unpaired_wheels(plugin: Plugin, spec: PluginSpec) -> tuple[Element, str] | None:
@@ -122,7 +122,7 @@ def unpaired_wheels(plugin: Plugin, spec: PluginSpec) -> tuple[Element, str] | N
     wanted = number(texts["wheel_pairs"][0]) if pairs is not None else float(left)
     if wanted is None or (left and right and left == right == int(wanted)):
         return None
-    needed = f"{int(wanted)} of each" if pairs is not None else "the same number of both, at least one"
+    needed = f"{int(wanted)} of each" if pairs is not None else "equal numbers of both, at least one of each"
     tags = [parameter.tag for name in ("left_joint", "right_joint") if (parameter := spec.by_meaning(name)) is not None]
     place = pairs or spec.by_meaning("left_joint")
     written = (element for text, element in values(plugin, place) if text) if place is not None else iter(())

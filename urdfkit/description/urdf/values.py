@@ -241,7 +241,8 @@ class Reader:
 
     def _note_arity(self, element: Element, attribute: str, text: str, count: int) -> None:
         count_found = len(text.split())
-        message = f'{attribute}="{_short(text)}" of <{element.tag}>: expected {count}, found {count_found}'
+        expected = "1 number" if count == 1 else f"{count} numbers"
+        message = f'{attribute}="{_short(text)}" of <{element.tag}>: expected {expected}, found {count_found}'
         self.note("wrong-arity", message, element, attribute)
 
 

@@ -32,7 +32,7 @@ def why_not(text: str) -> str:
     if "${" in text or "$(" in text or "{$" in text:
         return "an expression that was not evaluated"
     if re.search(r"\d,\d", text) and not re.search(r",\s", text):
-        return "a decimal comma: write a decimal point"
+        return "write a decimal point instead of the comma"
     if "," in text:
         return "separate numbers with spaces, not commas"
     if not text.strip():

@@ -154,8 +154,8 @@ def _explain(text: str, source: Source, position: Position, opened: list[tuple[s
         if (is_misspelt or any(outer == end for outer, _ in opened[:-1])) and source.text.startswith(
             f"<{tag}", source.offset(start.line, start.column)
         ):
-            return f"mismatched tag: `<{tag}>` is not closed before `</{end}>` of line {position.line}", start
-        return f"mismatched tag: `<{tag}>` of line {start.line} is not closed before `</{end}>`", position
+            return f"mismatched tag: `<{tag}>` is not closed before `</{end}>` on line {position.line}", start
+        return f"mismatched tag: `<{tag}>` on line {start.line} is not closed before `</{end}>`", position
     if text == "not well-formed (invalid token)" and source.text[offset : offset + 1] == "<":
         missing = _unclosed(source, offset)
         if missing is not None:
@@ -179,12 +179,12 @@ def _unclosed(source: Source, offset: int) -> tuple[str, Position] | None:
     if place.line == line:
         return None
     missing = f"the quote {quote} is not closed" if quote else "`>` is missing"
-    return f"{missing} before the `<` of line {line}", place
+    return f"{missing} before the `<` on line {line}", place
 
 
 def _reason(text: str, source: Source, position: Position, tag: str | None, line: int) -> str:
     offset = source.offset(position.line, position.column)
-    unclosed = f"`<{tag}>` of line {line} is not closed" if tag else ""
+    unclosed = f"`<{tag}>` on line {line} is not closed" if tag else ""
     if source.file.lower().endswith(_MESHES):
         return "this is a mesh: use the URDF that names it"
     if source.text.startswith(LFS.decode()):

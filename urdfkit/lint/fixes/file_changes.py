@@ -93,7 +93,7 @@ def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Ite
         path, source = Path.cwd() / file, sources[file]
         real = path.resolve()
         if not any(real == folder or folder in real.parents for folder in folders):
-            raise ResourceError(f"{file} is outside of the model's package; nothing was written")
+            raise ResourceError(f"{file} is outside the package of the model; nothing was written")
         content = path.read_bytes()
         text = FileText(content)
         if not text.agrees_with(source):

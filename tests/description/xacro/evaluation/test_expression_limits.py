@@ -71,7 +71,7 @@ def test_what_grows_is_refused(write: Write, expression: str) -> None:
     ("expression", "what"),
     [
         ("9**9**9", "`${9**9**9}` is too large: it creates an integer of more than 10,000 bits"),
-        ("[0] * 10**10", "it creates lists of more than 100,000 elements in all"),
+        ("[0] * 10**10", "it creates lists of more than 100,000 elements in total"),
         ("'x' * 10**10", "it creates a string of more than 100,000 characters"),
         ("1+" * 9000 + "1", "it has 18,001 characters; at most 10,000 are evaluated"),
         ("[0 for i in range(9999) for j in range(9999)]", "exceed 1,000,000 steps"),

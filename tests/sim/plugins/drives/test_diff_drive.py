@@ -383,7 +383,7 @@ def test_joints_that_do_not_pair_up(write_rover: Callable[..., Path]) -> None:
     path = write_rover(f"<gazebo>{lonely}</gazebo>")
     with pytest.raises(
         SimulationError,
-        match="1 <left_joint> and 0 <right_joint>; this drive needs the same number of both, at least one",
+        match="1 <left_joint> and 0 <right_joint>; this drive needs equal numbers of both, at least one of each",
     ):
         Simulator(path, strict=True)
 

@@ -69,12 +69,15 @@ WRONG = [
     (BLOCK.format(sensor(LASER, inside=scan(10.7))), "<samples> is 10.7; it must be a whole number; sensor `lidar`"),
     (
         BLOCK.format(sensor(LASER, inside=scan().replace("resolution>1<", "resolution>0<"))),
-        "<resolution> is 0; it must be greater than zero: it is multiplied with <samples>; sensor `lidar`",
+        "<resolution> is 0; it must be greater than zero: it is multiplied by <samples>; sensor `lidar`",
     ),
     (BLOCK.format(sensor(LASER.replace(">scan<", ">my scan!<"))), "`/my scan!` is not a valid topic name"),
     (
         BLOCK.format(sensor(VELODYNE.format("<min_range>9</min_range><max_range>2</max_range>"))),
-        "the range from <min_range> 9 m to <max_range> 2 m is empty: <min_range> must be the smaller; sensor `lidar`",
+        (
+            "the range from <min_range> 9 m to <max_range> 2 m is empty: "
+            "<min_range> must be less than <max_range>; sensor `lidar`"
+        ),
     ),
     (
         BLOCK.format(sensor(KINECT, type="depth", inside=CAMERA)),
@@ -84,7 +87,7 @@ WRONG = [
     (f'<gazebo reference="eyes">{GOOD}</gazebo>', "`eyes` is not a link; did you mean `eye`?"),
     (f'<gazebo reference="top">{sensor(type="imu", inside="")}</gazebo>', "of a link; `top` is not a link"),
     (BLOCK.format(sensor(LASER, rate=-1.0)), "<update_rate> is `-1.0`; it must be a finite number, 0 or greater"),
-    (BLOCK.format(sensor(LASER, inside=scan(0))), "<horizontal> has 0 samples; it must be one or more"),
+    (BLOCK.format(sensor(LASER, inside=scan(0))), "<horizontal> has 0 samples; it must have at least one"),
     (BLOCK.format(sensor(LASER, inside=scan(9, 1, -1))), "<horizontal> goes from 1 to -1 rad"),
     (BLOCK.format(sensor(LASER, inside=scan(far=0.01))), "the range of the lidar, 0.1 m to 0.01 m, is empty"),
     (

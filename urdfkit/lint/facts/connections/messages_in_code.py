@@ -142,7 +142,7 @@ def _compared(
         swapped = _swapped(texts, values.elts) if len(texts) == len(values.elts) > 1 else None
         if swapped is not None:
             value, joint, right = swapped
-            message = f"joint `{joint}` gets `{ast.unparse(value)}`, which is named after `{right}`; compare the order"
+            message = f"joint `{joint}` gets `{ast.unparse(value)}`, which is named after `{right}`; check the order"
             yield source, place(source, names), message
             return
 
@@ -184,7 +184,7 @@ def unfinished_goals(model: Model) -> Defects:
             if isinstance(last, ast.Return) and last.value is not None and not _may_succeed(found[0]):
                 at = place(source, _before_return(found[0].body))
                 end = source.text.find("\n", at[0])
-                message = f"`{named}` does not call succeed() of its goal, so that the action ends as aborted"
+                message = f"`{named}` does not call succeed() of its goal, so the goal is aborted"
                 yield source, (at[0], min(at[1], end) if end > 0 else at[1]), message
 
 

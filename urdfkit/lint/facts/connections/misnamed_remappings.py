@@ -127,7 +127,7 @@ def _undescribed(nodes: list[LaunchedNode], model: Model) -> Iterator[tuple[Sour
     for node, new in moved:
         name = new.name.strip("/")
         if not words.names(name, [(node.source.file, new.start)]):
-            yield node.source, new, f"no other file names `{name}`, so `{node.program}` is without a description"
+            yield node.source, new, f"no other file names `{name}`, so `{node.program}` receives no description"
 
 
 def _is_parameter(node: LaunchedNode, name: str, files: dict[tuple[str, str], Source]) -> bool:

@@ -100,7 +100,7 @@ def mecanum_defects(model: Model) -> Iterator[tuple[Source, Node, str, str, str]
                 and sum(_corner(at, x, y) == name for other, at in places.items() if other != name) == 1
             ]
             for name, other in wrong[:1]:
-                place, help = places[name], f"exchange it with `{named[other].text}`"
+                place, help = places[name], f"swap it with `{named[other].text}`"
                 where = f"x = {place[0]:g} m, y = {place[1]:g} m"
                 message = f"wheel `{named[name].text}` of `{name}{CORNER}` is at {where}"
                 yield source, named[name], message, named[name].text, help

@@ -358,7 +358,7 @@ def _misplaced(root: Node, node: Node) -> Defects:
         if key.text in _OF_CONTROLLERS and (is_of_types or (node is root and has_sections)):
             yield key, f"`{key.text}` is at the level of the controllers, not in a controller; indent it"
         elif key.text == PARAMETERS and node is root and has_sections:
-            yield key, f"`{PARAMETERS}` belongs to no node; indent it below the name of a node"
+            yield key, f"`{PARAMETERS}` does not belong to a node; indent it below the name of a node"
 
 
 def contradictions(source: Source, robot: Robot) -> Defects:

@@ -160,7 +160,11 @@ def tight_turns(model: Model) -> Iterator[tuple[Source, Node, str]]:
             node, plugin = group.find("use_rotate_to_heading"), group.find("plugin")
             is_pursuit = plugin is not None and "RegulatedPurePursuit" in plugin.text
             if node is not None and is_pursuit and node.text.lower() == "true":
-                yield source, node, "the controller rotates in place, but the robot has steered wheels; write false"
+                yield (
+                    source,
+                    node,
+                    "the controller rotates in place, which steered wheels do not allow; set this to false",
+                )
 
 
 def _points_forward(each: Axles) -> bool:

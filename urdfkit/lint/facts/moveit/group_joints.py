@@ -76,7 +76,7 @@ def without_chain(source: Source, root: Element, robot: Robot) -> Iterator[tuple
         ends = [joint for joint in joints if not any(_is_below(other, joint, robot) for other in joints)]
         if len(ends) > 1:
             tips = " and ".join(f"`{joint.name}`" for joint in sorted(ends, key=lambda each: each.name)[:2])
-            yield entry.name, f"group `{entry.name.text}` is no chain: {tips} are on different branches"
+            yield entry.name, f"group `{entry.name.text}` is not a chain: {tips} are on different branches"
 
 
 def orientation_out_of_reach(source: Source, root: Element, robot: Robot) -> Iterator[tuple[Node, str]]:

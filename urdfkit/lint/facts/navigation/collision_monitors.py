@@ -130,9 +130,8 @@ def _below_navigation(inputs: list[tuple[str, Node]]) -> Defects:
         number = number_of(value)
         above = [other for priority, other in goals if number is not None and priority > number]
         if value is not None and number and above and re.search(_MANUAL, words, re.I):
-            message = (
-                f"input `{name}` has the priority {number:g}, lower than `{above[0]}`, so a person cannot interrupt it"
-            )
+            message = f"input `{name}` has the priority {number:g}, lower than `{above[0]}`"
+            message += ", so an operator cannot interrupt it"
             yield value, message
 
 

@@ -120,8 +120,8 @@ def _late_map(model: Model, each: Costmap) -> Defects:
             None,
         )
         if sender is not None:
-            message = f"`{sender}` publishes the map before this layer subscribes, and the layer does not get it"
-            yield each.source, flag, f"{message}; write true"
+            message = f"`{sender}` publishes the map before this layer subscribes, so the layer does not receive it"
+            yield each.source, flag, f"{message}; set this to true"
 
 
 def _layers(group: Node) -> Iterator[tuple[Node, str]]:

@@ -187,7 +187,7 @@ def _plugins(node: Node) -> Defects:
     defined = {key.text: (key, value) for key, value in node.entries if value.kind == "group"}
     for key, value in node.entries:
         if key.text == "observation_sources" and "," in value.text:
-            yield value, "`observation_sources` contains commas; separate the names by spaces"
+            yield value, "`observation_sources` contains commas; separate the names with spaces"
             continue
         if key.text == "observation_sources" and value.kind == "text":
             listed = [(value, word) for word in value.text.split()]

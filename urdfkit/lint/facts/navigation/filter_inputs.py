@@ -93,7 +93,7 @@ def wrong_covariances(group: Node) -> Iterator[tuple[Node, str]]:
             rows = Counter(item.line for item in value.items)
             odd = [line for line, length in rows.items() if length != _WIDTH]
             place = next((item for item in value.items if [item.line] == odd), key)
-            yield place, f"`{key.text}` has {count} values; {_WIDTH * _WIDTH} are needed"
+            yield place, f"`{key.text}` has {count} values; it must have {_WIDTH * _WIDTH}"
 
 
 _READERS = (

@@ -224,7 +224,9 @@ def _of_inputs(each: Filter, relative: set[str]) -> Defects:
             None,
         )
         if node is not None:
-            message = "no input gives a position in the map frame; write false for an input that measures this position"
+            message = (
+                "no input measures a position in the map frame; set this to false if the input measures this position"
+            )
             yield each.source, node, message
 
 

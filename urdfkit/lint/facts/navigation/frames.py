@@ -69,7 +69,7 @@ def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
         others = sorted((used | (plugged if "odom" in roles else set())) - {frame})
         is_reported = any(is_slip(frame, name) for name in ("odom", "map"))
         if "/" in frame and frame in topics:
-            yield source, value, f"`{key.text}` is `{frame}`, which is a topic and not a frame"
+            yield source, value, f"`{key.text}` is `{frame}`, which is a topic, not a frame"
         if not others or "$" in frame or is_reported or frame in ("map", "odom") or frame in model.robot.link_by_name:
             continue
         if frame.isidentifier() and (words.occurs_once(frame) or _is_only_frame(model, words, frame)):

@@ -81,7 +81,7 @@ def _arguments(
         if re.fullmatch(r"[A-Z_]+", word):
             key = word
         elif not key and "$" not in word:
-            yield BuildDefect(source, start, word, f"`{word}` follows no keyword of catkin_package()")
+            yield BuildDefect(source, start, word, f"`{word}` does not follow a keyword of catkin_package()")
             return
         elif key == "INCLUDE_DIRS" and "$" not in word and not is_folder(files.folder / word):
             message = f"folder `{word}` does not exist in this package" + near_path(files.folder / word)
@@ -94,7 +94,7 @@ def _arguments(
                     source, start, word, f"no command defines the library `{word}`" + Suggestion(near, word)
                 )
             elif word in files.dependencies() and word in names():
-                message = f"`{word}` is a package of catkin, which belongs to CATKIN_DEPENDS"
+                message = f"`{word}` is a catkin package; list it in CATKIN_DEPENDS"
                 yield BuildDefect(source, start, word, message)
                 return
 

@@ -273,6 +273,6 @@ def _exported(
                 if near is not None:
                     yield BuildDefect(source, start, word, f"unknown package `{word}`" + Suggestion(near, word))
             elif key == "DEPENDS" and word in of_catkin - _PLAIN and word in names():
-                message = f"`{word}` is a package of catkin, which belongs to CATKIN_DEPENDS"
+                message = f"`{word}` is a catkin package; list it in CATKIN_DEPENDS"
                 yield BuildDefect(source, start, word, message)
                 break

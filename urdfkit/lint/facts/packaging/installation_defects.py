@@ -67,7 +67,7 @@ def _arguments(source: Source, command: CMakeCommand) -> Iterator[BuildDefect]:
             return
     has_files = len(words) > 1 and not _is_keyword(words[1])
     if words[0] in ("TARGETS", "FILES", "PROGRAMS", "DIRECTORY") and not has_files:
-        yield BuildDefect(source, command.start, command.name, f"install({words[0]}) names nothing to install")
+        yield BuildDefect(source, command.start, command.name, f"install({words[0]}) does not name anything to install")
 
 
 def _exports(source: Source, every: list[CMakeCommand], installs: list[CMakeCommand]) -> Iterator[BuildDefect]:
@@ -82,7 +82,7 @@ def _exports(source: Source, every: list[CMakeCommand], installs: list[CMakeComm
             near = next((name for name in made if is_slip(word, name)), None) or (
                 next(iter(made)) if len(made) == 1 else None
             )
-            yield BuildDefect(source, start, word, f"no install() makes the export `{word}`" + Suggestion(near, word))
+            yield BuildDefect(source, start, word, f"no install() creates the export `{word}`" + Suggestion(near, word))
     is_ament = any(each.name == "ament_package" for each in every)
     if made and not exported and is_ament and not any(each.words[0][0] == "EXPORT" for each in installs):
         word, start = next(iter(made.items()))
@@ -229,10 +229,10 @@ def _place_of_library(
     if place is None:
         return
     if not is_program and place in ("bin", "share", f"lib/{files.name}", f"share/{files.name}"):
-        message = f"library `{name}` is installed to `{place}`, but programs search it in `lib`"
+        message = f"library `{name}` is installed to `{place}`, but programs search for it in `lib`"
         yield BuildDefect(source, start, written, message, "warning")
     elif is_program and (place == "lib" or (place.startswith("share") and files.build_tool != "catkin")):
-        message = f"executable `{name}` is installed to `{place}`, but it is searched in `lib/{files.name}`"
+        message = f"executable `{name}` is installed to `{place}`, but ROS searches for it in `lib/{files.name}`"
         yield BuildDefect(source, start, written, message)
 
 

@@ -139,21 +139,21 @@ def type_problem(name: str, value: Node, type: str) -> str:
         is_empty = value.kind == "text" and not value.text
         return "" if is_empty or "$" in value.text else f"`{name}` is a group; write `{rest[0]}` below it"
     if value.kind == "group":
-        return f"`{name}` is a group of parameters, but {_KINDS[kind]} is needed" if value.entries else ""
+        return f"`{name}` is a group of parameters, but must be {_KINDS[kind]}" if value.entries else ""
     if kind == "list":
         if value.kind != "list":
             needs_list = value.text and "$" not in value.text
             return f"`{name}` is not a list; write it in brackets" if needs_list else ""
         lengths = [int(each) for each in rest[1:]]
         if lengths and len(value.items) not in lengths:
-            return f"`{name}` has {len(value.items)} values; {' or '.join(rest[1:])} are needed"
+            return f"`{name}` has {len(value.items)} values; it must have {' or '.join(rest[1:])}"
         if rest[0] == "bool" and any(re.fullmatch(_INTEGER, each.text) for each in value.items if each.is_plain):
             return f"`{name}` contains numbers; write true and false"
         return ""
     if value.kind == "list":
-        return f"`{name}` is a list, but {_KINDS[kind]} is needed"
+        return f"`{name}` is a list, but must be {_KINDS[kind]}"
     if rest and re.fullmatch(_INTEGER, value.text) and not int(rest[0]) <= int(value.text) <= int(rest[1]):
-        return f"`{name}` is {value.text}; {rest[0]} to {rest[1]} is needed"
+        return f"`{name}` is {value.text}; it must be between {rest[0]} and {rest[1]}"
     return _scalar(name, value, kind) if value.text and "$" not in value.text else ""
 
 
@@ -170,7 +170,7 @@ def _scalar(name: str, value: Node, kind: str) -> str:
         if is_truth and value.is_plain:
             return ""
         return (
-            f'`{name}` is "{text}", a text; write {text.lower()}'
+            f'`{name}` is "{text}", a string; write {text.lower()}'
             if is_truth
             else f"`{name}` is `{text}`, which is neither true nor false"
         )

@@ -188,7 +188,11 @@ def _unlike_numbered(key: Node, value: Node) -> Defects:
         right = re.sub(r"\d+", lambda at: next(numbers, at[0]), other)
         if right in (item.text for item in names):
             return
-        yield odd, f"`{odd.text}` in `{key.text}` is written unlike the other names" + Suggestion(right, odd.text)
+        yield (
+            odd,
+            f"`{odd.text}` in `{key.text}` does not follow the pattern of the other names"
+            + Suggestion(right, odd.text),
+        )
 
 
 def _misspelt_joints(node: Node, model: Model) -> Defects:

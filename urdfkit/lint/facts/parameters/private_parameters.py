@@ -149,7 +149,7 @@ def _repeated_names(
         if not any(re.search(is_read, re.sub(_NAMED, "", text)) for _, _, text in texts):
             short = each.attribute.value.rpartition("/")[2]
             message = f"the only section of {short} is `{name}`, so its parameters are in `/{name}/{name}`"
-            yield each.attribute, f"{message}; load it outside of the node"
+            yield each.attribute, f"{message}; load it outside the node"
 
 
 @kept

@@ -49,7 +49,7 @@ def wrong_orders(model: Model) -> Iterator[tuple[Source, Node, str]]:
             message = f"joint {at + 1} of controller `{name}`, which takes commands by index, is `{names[at]}`"
             yield source, items[at], f"{message}, but joint {at + 1} of `{key.text}` is `{texts[at]}`"
         elif not others and (odd := _odd_limb(names)) is not None:
-            message = f"`{names[odd]}` is in another order than the joints of the other limbs"
+            message = f"`{names[odd]}` is in a different order from the joints of the other limbs"
             yield source, items[odd], f"{message} in this list, whose commands have no names"
 
 

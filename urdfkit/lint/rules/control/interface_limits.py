@@ -96,7 +96,7 @@ class InterfaceLimits(RobotRule):
             param, joint, which, value, limit = less[0]
             unit = _UNITS["position"][joint.type != "prismatic"]
             message = f"position command of joint `{joint.name}`: {which} is {value:g} {unit}, but the joint limit is "
-            message += f"{limit:g} {unit}; all others are those of their joints"
+            message += f"{limit:g} {unit}; all other limits equal those of their joints"
             yield self.at(model, param, message, joint=joint.name, severity="note")
 
     def _check_start(self, model: Model, interface: Element, joint: Joint) -> Findings:

@@ -44,7 +44,7 @@ class Ros2ControlTypeUnknown(RobotRule):
             value = block.element.get("type")
             if value is None:
                 message = "<ros2_control> has no `type`"
-                help = f"add the attribute type with one of {', '.join(_TYPES)}"
+                help = f"add the attribute `type` with one of the values {', '.join(_TYPES)}"
                 yield self.at(model, block.element, message, help=help)
                 continue
             if value in _TYPES or "$" in value:

@@ -50,7 +50,7 @@ class UrdfVersionUnsupported(RobotRule):
         message = (
             f"URDF {shown(version)} is read by ROS 2 Lyrical and Rolling only"
             if is_any
-            else f"{reader} reads URDF 1.0 only, and the robot is URDF {shown(version)}"
+            else f"{reader} reads URDF 1.0 only, but the robot is URDF {shown(version)}"
         )
         help = "write URDF 1.0: `rpy` instead of `quat_xyzw`, other shapes instead of capsules, and no limits of"
         help += " acceleration, deceleration and jerk"

@@ -61,5 +61,5 @@ class OdometryPublishedTwice(RobotRule):
                 if text.lower() in ("true", "1") and same is not None:
                     message = f"<{element.tag}> is true, but the filter in {same.rpartition('/')[2]} publishes "
                     message += "the same transform"
-                    help = "write false, or set `publish_tf` of the filter to false"
+                    help = f"set <{element.tag}> or `publish_tf` of the filter to false"
                     yield self.at(model, element, message, help=help)

@@ -49,7 +49,7 @@ class PluginInWrongSensor(RobotRule):
             if types is None or not is_sensor_type or kind in types or is_computed:
                 continue
             required = f"plugin `{library}` requires a sensor of type `{types[0]}`"
-            message = f"{required}, but is outside of a `<sensor>`" if kind is None else f"{required}, not `{kind}`"
+            message = f"{required}, but is outside any <sensor>" if kind is None else f"{required}, not `{kind}`"
             others = [
                 name for name, accepted in SENSORS_OF_LIBRARIES.items() if kind in accepted and _alike(name, library)
             ]

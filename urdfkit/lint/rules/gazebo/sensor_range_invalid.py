@@ -88,7 +88,7 @@ def _blind(lidar: Element) -> Iterator[tuple[Element, str]]:
     low, high = (numbers(each.text) if limits and (each := limits.find(tag)) else None for tag in ("min", "max"))
     if limits is not None and low and high and _BLIND <= low[0] < high[0]:
         element = limits.find("min")
-        yield element or limits, f"the lidar sees nothing that is nearer than {low[0]:g} m"
+        yield element or limits, f"the lidar detects nothing nearer than {low[0]:g} m"
 
 
 _NARROW = 0.05

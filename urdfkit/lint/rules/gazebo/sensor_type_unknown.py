@@ -65,7 +65,7 @@ class SensorTypeUnknown(RobotRule):
                 kind = sensor.type or ""
                 if not kind.strip():
                     message = f"sensor `{sensor.name or 'sensor'}` has no type"
-                    yield self.at(model, sensor.element, message, help="write type, such as camera, imu or gpu_lidar")
+                    yield self.at(model, sensor.element, message, help="add a type, such as camera, imu or gpu_lidar")
                     continue
                 if "$" in kind or model.is_unresolved(sensor.element, "type"):
                     continue

@@ -131,7 +131,7 @@ def _of_wheel(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | Non
     low, high = sorted((visual.radius, collision.radius))
     if not 0.0 < low < (1.0 - _WHEEL) * high:
         return None
-    message = f"has a radius of {collision.radius:.3g} m, but the visual shape has {visual.radius:.3g} m"
+    message = f"has a radius of {collision.radius:.3g} m, but that of the visual shape is {visual.radius:.3g} m"
     return message, "write the radius of the wheel in both shapes", "geometry"
 
 

@@ -55,7 +55,8 @@ class MeshPackageUnknown(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"package `{name}` of the mesh not found in workspace or environment" + Suggestion(near[name])
+                f"package `{name}` of the mesh is neither in the workspace nor in the environment"
+                + Suggestion(near[name])
                 if name
                 else f"mesh URI `{uri}` has three slashes, so it contains no package",
                 attribute="filename",

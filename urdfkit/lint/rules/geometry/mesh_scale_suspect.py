@@ -99,7 +99,7 @@ class MeshScaleSuspect(RobotRule):
                 else more_attributes(model, element, f'scale="{scale}"', "unsafe", f"Scale by {scale}")
             )
             message = f"mesh of link `{link.name}` has a size of {size:.3g} m{comparison}"
-            help = f'set scale="{scale}" if the mesh is too {defect} by {max(factor, 1.0 / factor):g}'
+            help = f'set scale="{scale}" if the mesh is too {defect} by a factor of {max(factor, 1.0 / factor):g}'
             yield self.at(model, element, message, attribute="scale", link=link.name, help=help, fix=fix)
 
 

@@ -77,9 +77,9 @@ class ShapeDetached(RobotRule):
                 is_moved = any(shape.origin.xyz) and dist(shape.origin.xyz, (0.0, 0.0, 0.0)) > far / 2.0
                 place = (origin if is_moved else None) or shape.element.find("geometry") or shape.element
                 message = (
-                    f"<{shape.element.tag}> of link `{link.name}` extends {far:.3g} m from the centre of mass, the "
+                    f"<{shape.element.tag}> of link `{link.name}` extends {far:.3g} m from the centre of mass, but the "
                 )
-                message += f"other shapes {near:.3g} m"
+                message += f"other shapes extend only {near:.3g} m"
                 help = "check the decimal points and units of the shape"
                 yield self.at(model, place, message, attribute="xyz" if is_moved else None, link=link.name, help=help)
 

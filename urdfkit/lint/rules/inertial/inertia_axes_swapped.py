@@ -83,7 +83,7 @@ class InertiaAxesSwapped(RobotRule):
             )
             if products > _ALIKE * min(*actual, *expected) or _difference(actual, expected) < _UNLIKE:
                 continue
-            message = f"ixx, iyy and izz of link `{link.name}` are the moments of its shapes in another order"
+            message = f"ixx, iyy and izz of link `{link.name}` are the moments of its shapes in a different order"
             if min(_difference(actual, order) for order in permutations(expected)) > _ALIKE:
                 if not _is_of_swapped_cylinder(link, inertial.mass, actual, expected):
                     continue

@@ -69,7 +69,7 @@ class InertiaCopyPaste(RobotRule):
                 continue
             names = ", ".join(link.name for link in links[:3])
             message = (
-                f"{len(links)} links of different size share this inertia: {names}{' …' if len(links) > 3 else ''}"
+                f"{len(links)} links of different sizes share this inertia: {names}{' …' if len(links) > 3 else ''}"
             )
             help = "compute each tensor from shape and mass"
             yield self.at(model, inertial.inertia.element, message, link=links[0].name, help=help)

@@ -55,14 +55,15 @@ class InertiaNotPositiveDefinite(RobotRule):
                 listed = ", ".join(f"{moment:.3g}" for moment in moments)
                 sign = "negative" if moments[0] < -TOLERANCE * largest else "zero"
                 count = sum(moment <= TOLERANCE * largest for moment in moments) if largest < inf else 1
-                which = ("one is", "two are", "all are")[count - 1]
+                which = ("one of its principal moments", "two of its principal moments", "all its principal moments")[
+                    count - 1
+                ]
                 is_rod = sign == "zero" and moments[1] > (1.0 - TOLERANCE) * moments[2]
                 severity: Severity | None = (
                     "warning" if is_rod or bodies.is_fixed(link) or bodies.is_small(link) else None
                 )
                 severity = "note" if bodies.is_negligible(link) else severity
-                message = (
-                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², {which} {sign}"
-                )
+                verb = "is" if count == 1 else "are"
+                message = f"inertia of link `{link.name}` is impossible: {which} ({listed} kg·m²) {verb} {sign}"
                 help = "compute it from shape and mass; products of inertia are small compared with the diagonal"
                 yield self.at(model, element, message, link=link.name, help=help, severity=severity, kind=sign)

@@ -84,7 +84,7 @@ class JointOffItsParent(RobotRule):
         found: set[str] = set()
         for place in misplaced(model):
             joint = place.joint
-            where = f"{-place.depth:.3g} m outside of" if place.depth < 0.0 else f"{place.depth:.3g} m inside of"
+            where = f"{-place.depth:.3g} m outside" if place.depth < 0.0 else f"{place.depth:.3g} m inside"
             message = f"joint `{joint.name}` is {where} its parent link `{joint.parent}`; "
             message += "all other joints are on the surface of their parent links"
             help = "check the parent link and the origin"
@@ -94,9 +94,9 @@ class JointOffItsParent(RobotRule):
         for each in along_tubes(model):
             joint = each.joint
             if joint.name not in found:
-                message = f"joint `{joint.name}` is {each.place:.3g} m along `{joint.parent}`, "
-                message += f"not at its end, at {each.length:.3g} m"
-                help = "check which length the origin is computed with"
+                message = f"joint `{joint.name}` is at {each.place:.3g} m along `{joint.parent}`, "
+                message += f"not at the end of the link, {each.length:.3g} m"
+                help = "check the length from which the origin is computed"
                 help = "check the sign of the origin" if each.place < 0.0 else help
                 names = tuple(name for name in (joint.child, joint.parent) if name)
                 yield self.at(model, each.element, message, attribute="xyz", joint=joint.name, help=help, names=names)

@@ -43,7 +43,7 @@ class JointTypeMissing(RobotRule):
             if joint.type is None:
                 joint_type = _likely_type(joint)
                 message = f"joint `{joint.name}` has no type"
-                help = f'add type="{joint_type}", or another of {", ".join(JOINT_TYPES)}'
+                help = f'add type="{joint_type}", or another of the types {", ".join(JOINT_TYPES)}'
                 fix = more_attributes(
                     model, joint.element, f'type="{joint_type}"', "unsafe", f'Add type="{joint_type}"'
                 )

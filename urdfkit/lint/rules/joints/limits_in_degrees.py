@@ -67,7 +67,7 @@ class LimitsInDegrees(RobotRule):
             elif (tiny := _converted_twice(model, limit)) is not None:
                 value = getattr(limit, tiny)
                 message = f"{tiny} limit {value:.3g} rad of joint `{joint.name}` is only {degrees(value):.3g}°"
-                help = "write the value in degrees, or leave out its conversion"
+                help = "write the value in degrees, or remove the conversion"
                 yield self.at(model, limit.element, message, attribute=tiny, joint=joint.name, help=help)
 
 

@@ -180,7 +180,7 @@ class OriginTooFar(RobotRule):
             return
         if _is_carried(joint, model):
             return
-        message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
+        message = f"joint `{joint.name}` is {gap:.3g} m outside its parent link `{joint.parent}`; "
         message += "all other moving joints are at their parent links"
         help = "check the axes, signs and units of the origin"
         place = _argument(joint, moving, model)
@@ -204,8 +204,8 @@ class OriginTooFar(RobotRule):
         if len(wrong) != 1:
             return
         joint, gap, part = wrong[0]
-        message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`, "
-        message += f"but would be at the link with {-part:.3g} m instead of {part:.3g} m"
+        message = f"joint `{joint.name}` is {gap:.3g} m outside its parent link `{joint.parent}`, "
+        message += f"but would be at the link if {part:.3g} m were {-part:.3g} m"
         help = "check the signs of the origin and of the shapes of the parent link"
         origin = joint.element.find("origin") or joint.element
         yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)

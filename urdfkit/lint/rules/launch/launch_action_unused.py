@@ -78,7 +78,7 @@ class LaunchActionUnused(RobotRule):
                     again = _started_again(tree, created) if name in targets else None
                     if own is not None:
                         found = self._finding(source, node, kind, False, own)
-                        help = f"`{own.id}` waits for its own exit; `{name}` is probably meant"
+                        help = f"`{own.id}` waits for its own exit; `{name}` is probably intended"
                         found = Finding(**{**found.__dict__, "severity": "error", "help": help, "kind": "replaced"})
                     if again is not None:
                         other = source.span(*place(source, again))

@@ -151,7 +151,7 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
     both = [attributes.get(name) for name in ("required", "respawn")] if version == 1 and tag.name == "node" else []
     if both and all(each is not None and each.value.lower() in ("true", "1") for each in both):
         respawn = attributes["respawn"]
-        yield respawn, "`respawn` and `required` are both true, which roslaunch refuses; remove one"
+        yield respawn, "`respawn` and `required` are both true, which roslaunch rejects; remove one"
     output = attributes.get("output") if tag.name in ("node", "test", "executable") else None
     if output is not None and not is_output(output.value, version):
         yield output, f"unknown output `{output.value}`" + did_you_mean(output.value, OUTPUTS[version])
@@ -217,7 +217,7 @@ def _parameter(
         if name != "command" and re.match(_XACRO, attribute.value):
             yield attribute, f"`{name}` is a command; use the attribute `command`"
         elif name == "command" and re.fullmatch(_FILE, attribute.value):
-            yield attribute, "`command` is a file and not a program; use the attribute `textfile`, or run xacro"
+            yield attribute, "`command` is a file, not a program; use the attribute `textfile`, or run xacro"
         elif name == "value" and re.fullmatch(_FILE, attribute.value) and _is_description(attributes):
             yield attribute, "`value` is the path of the file, not its content; use the attribute `textfile`"
         elif name == "textfile" and _is_xacro(_default(attribute.value, defaults), model):

@@ -88,13 +88,13 @@ class SrdfGroupInconsistent(RobotRule):
                 is_own = parent in links
                 if is_own and name != effector.get("parent_group"):
                     message = f"parent link `{parent}` of end effector `{effector.get('name')}` is in group `{name}`"
-                    help = "write the link of the arm that carries the group"
+                    help = "name the link of the arm that carries the group"
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
                 carrier = effector.get("parent_group") or ""
                 within = joints_of(carrier, root, model.robot) if carrier and carrier != name else None
                 if within and within <= (joints_of(name, root, model.robot) or set()):
                     message = f"group `{name}` of end effector `{effector.get('name')}` contains its parent group"
-                    help = "write the group of the end effector without the arm"
+                    help = "name a group that contains only the end effector"
                     yield self.at(model, effector, message, attribute="group", help=help, severity=severity)
                     continue
                 links = [link.get("name") for link in by_name[carrier].find_all("link")] if within else []
@@ -103,7 +103,7 @@ class SrdfGroupInconsistent(RobotRule):
                     message = (
                         f"parent link `{parent}` of end effector `{effector.get('name')}` is not in its parent group"
                     )
-                    help = f"write a link of `{carrier}`"
+                    help = f"name a link of group `{carrier}`"
                     yield self.at(
                         model,
                         effector,
@@ -135,7 +135,7 @@ class SrdfGroupInconsistent(RobotRule):
             yield self.at(model, joint, message, attribute="name", joint=name, severity=severity)
         if frame in model.robot.link_by_name:
             message = f"parent frame `{frame}` of virtual joint `{name}` is a link of the robot"
-            help = "write a frame outside of the robot, such as `world`"
+            help = "write a frame outside the robot, such as `world`"
             yield self.at(model, joint, message, attribute="parent_frame", help=help, severity=severity)
         elif joint.get("type") == "fixed" and frame in ("odom", "map") and pairs_of_wheels(model):
             message = f"virtual joint `{name}` is fixed to `{frame}`, but the robot has drive wheels"

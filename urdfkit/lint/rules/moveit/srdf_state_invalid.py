@@ -163,8 +163,8 @@ class SrdfStateInvalid(RobotRule):
                 continue
             right = mimic.multiplier * followed + mimic.offset
             if abs(stated - right) > max(2.0 * _TOLERANCE, 0.05 * abs(right)):
-                message = f"joint `{name}` mimics `{mimic.joint}`, whose value makes it {right:.4g}, not {stated:g}"
-                help = "remove it, or write this value"
+                message = f"joint `{name}` mimics `{mimic.joint}`, so its value is {right:.4g}, not {stated:g}"
+                help = f"remove the value, or write {right:.4g}"
                 yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity)
 
     def _exchanged(self, root: Element, model: Model) -> Iterator[tuple[str, tuple[Element, str]]]:

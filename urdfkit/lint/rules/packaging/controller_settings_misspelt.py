@@ -131,7 +131,7 @@ class ControllerSettingsMisspelt(RobotRule):
                     yield self.at_span(span_of(source, kind), message, severity="error")
         for key in sections_without_parameters(source):
             message = f"section `{key.text}` has no `{_PARAMETERS}`; ROS 2 rejects the file"
-            help = f"write `{_PARAMETERS}:` in the line below and indent the parameters"
+            help = f"write `{_PARAMETERS}:` on the next line and indent the parameters"
             yield self.at_span(span_of(source, key), message, severity="error", help=help)
 
     def _parameters(self, source: Source, model: Model) -> Findings:

@@ -52,5 +52,5 @@ class ControllersShareInterface(RobotRule):
             span = span_of(source, claim.where)
             if (source.file, span.line, span.column) not in seen:
                 seen.add((source.file, span.line, span.column))
-                message = f"`{other}` is spawned before and also commands `{claim.interface}` of joint `{claim.joint}`"
+                message = f"`{other}` is spawned earlier and also commands `{claim.interface}` of joint `{claim.joint}`"
                 yield self.at_span(span, message, names=mirrored(claim.joint))

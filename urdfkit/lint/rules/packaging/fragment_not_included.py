@@ -74,7 +74,7 @@ class FragmentNotIncluded(RobotRule):
             place = _include_of(file.parent, model)
             if place is not None:
                 source, start = place
-                message = f"no file includes `{file.name}`, which is in the folder of the file included here"
+                message = f"no file includes `{file.name}`, which is in the same folder as the file included here"
                 help = f"include {file.name}, or remove the file"
                 yield self.at(model, source.position(start), message, help=help)
 

@@ -94,7 +94,8 @@ class AxisContradictsPart(RobotRule):
         unlike = asymmetric_axis(model) if not found else None
         if unlike is not None:
             wrong, right = unlike
-            message = f"the axes of `{wrong.name}` and `{right.name}` are not mirrored, unlike all others of both sides"
+            message = f"the axes of `{wrong.name}` and `{right.name}` are not mirrored, unlike the axes of "
+            message += "all other joints on the two sides"
             yield self._at(wrong, message, model, (wrong.name, right.name))
 
     def _at(

@@ -135,7 +135,9 @@ class CasterOffTheGround(RobotRule):
             is_caster = joint is not None and _CASTER_NAME.search(f"{link.name} {joint.name}") is not None
             size = max(_radius(each.geometry) for each in link.collisions or link.visuals)
             if is_caster and size > _MAX_CASTER * radius:
-                message = f"caster `{link.name}` has a radius of {size:.3g} m, but the drive wheels have {radius:.3g} m"
+                message = (
+                    f"caster `{link.name}` has a radius of {size:.3g} m, but that of the drive wheels is {radius:.3g} m"
+                )
                 help = "check the decimal point and the unit of the radius"
                 yield self.at(model, element, message, attribute="name", link=link.name, help=help)
             elif gap < -_MAX_DEPTH * radius:

@@ -84,7 +84,6 @@ class OdometryFrameNotRoot(RobotRule):
                     continue
                 name = (first.text or "").strip().strip("/")
                 if name and name == (second.text or "").strip().strip("/") and "$" not in name:
-                    message = (
-                        f"<{odometry}> and <{base}> are both `{name}`: the frame of the odometry is not on the robot"
-                    )
+                    message = f"<{odometry}> and <{base}> are both `{name}`: "
+                    message += "the odometry frame must not be a link of the robot"
                     yield self.at(model, first, message, link=name, help="write `odom`")

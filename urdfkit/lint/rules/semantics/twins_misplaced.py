@@ -121,7 +121,9 @@ class TwinsMisplaced(RobotRule):
             origin = wrong.element.find("origin") or wrong.element
             place, attribute = _argument(model, wrong, right, k) or (origin, "xyz")
             values = " and ".join(f"{joint.origin.xyz[k]:g} m" for joint in (wrong, right))
-            message = f"joints `{wrong.name}` and `{right.name}` are not mirrored, unlike all others of both sides: "
+            message = (
+                f"joints `{wrong.name}` and `{right.name}` are not mirrored, unlike all other joints on the two sides: "
+            )
             message += f"{'xyz'[k]} is {values}"
             help = "check the sign and the decimal point"
             names = (wrong.name, right.name)

@@ -39,6 +39,6 @@ class ExpansionError(FaultRule):
         from urdfkit.lint.facts.required_inputs import argument_in_path
 
         name = argument_in_path(model, path)
-        help = f"pass {name}:=value: its default selects no file" if name else None
+        help = f"pass {name}:=value: its default selects no existing file" if name else None
         severity: Severity | None = "note" if name else None
         yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity=severity)

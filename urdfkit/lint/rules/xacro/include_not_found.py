@@ -49,7 +49,7 @@ class IncludeNotFound(FaultRule):
             severity, message = "warning", f"package `{fault.name}` is not installed on this machine"
             help = "install it, because package.xml depends on it, or pass its folder with --package-path"
         elif fault.kind == "include-not-found" and (name := argument_in_path(model, fault.details.get("path", ""))):
-            severity, help = "note", f"pass {name}:=value: its default selects no file"
+            severity, help = "note", f"pass {name}:=value: its default selects no existing file"
         fix = _nearest_file(fault, model)
         cause = "package" if fault.kind == "package-not-found" else ""
         yield self.at(

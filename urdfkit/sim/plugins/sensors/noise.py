@@ -54,7 +54,7 @@ def noise_of(parent: Element | None, random: np.random.Generator) -> Noise:
     written = element.find("type")
     kind = (written.text if written is not None else element.get("type")) or "none"
     if kind not in NOISES:
-        message = f"the type of the noise is `{kind}`; it must be {', '.join(NOISES)}" + did_you_mean(kind, NOISES)
+        message = f"unknown noise type `{kind}`; use one of {', '.join(NOISES)}" + did_you_mean(kind, NOISES)
         raise SimulationError(message, position=(written or element).origin.position, code="Z823")
     if kind == "none":
         return Noise()

@@ -156,7 +156,7 @@ def test_a_reset_starts_the_count_again(post) -> None:
 @pytest.mark.parametrize(
     ("wrong", "reported"),
     [
-        (sensor(LASER, inside=scan(0)), "<horizontal> has 0 samples; it must be one or more"),
+        (sensor(LASER, inside=scan(0)), "<horizontal> has 0 samples; it must have at least one"),
         (sensor(LASER, inside=scan(9, 1.0, -1.0)), "<horizontal> goes from 1 to -1 rad"),
         (sensor(LASER, inside=scan().replace("<min>0.1", "<min>-0.1")), "<min> is -0.1 m; it must be zero or greater"),
         (sensor(LASER, inside=scan(far=0.05)), "the range of the lidar, 0.1 m to 0.05 m, is empty"),
@@ -167,7 +167,7 @@ def test_a_reset_starts_the_count_again(post) -> None:
         (sensor(LASER, inside=scan(noise=noise(-1))), "<stddev> is `-1`; it must be a finite number, 0 or greater"),
         (
             sensor(LASER, inside=scan(noise="<noise><type>gausian</type></noise>")),
-            "the type of the noise is `gausian`; did you mean `gaussian`?",
+            "unknown noise type `gausian`; did you mean `gaussian`?",
         ),
         (sensor(LASER, more="<pose>1 2 3</pose>"), "<pose> is `1 2 3`; it must be 6 finite numbers"),
         (sensor(LASER, rate="often"), "<update_rate> is `often`"),

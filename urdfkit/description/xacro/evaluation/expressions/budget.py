@@ -126,7 +126,7 @@ class Budget:
         elif count > 0 and isinstance(value, CONTAINERS):
             steps = steps_of(value) * count
             if steps > MAX_ELEMENTS:
-                raise excess("lists", MAX_ELEMENTS, "elements in all")
+                raise excess("lists", MAX_ELEMENTS, "elements in total")
             self.spend(steps)
 
     def power(self, a: Any, b: Any) -> Any:

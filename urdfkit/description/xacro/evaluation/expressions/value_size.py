@@ -41,10 +41,10 @@ def steps_of(value: Any) -> int:
             elif isinstance(one, CONTAINERS):
                 items: list[Any] = items_of(one)
                 if total + len(below) + len(items) > MAX_ELEMENTS:
-                    raise excess("lists", MAX_ELEMENTS, "elements in all")
+                    raise excess("lists", MAX_ELEMENTS, "elements in total")
                 below += items
             if total > MAX_ELEMENTS:
-                raise excess("lists", MAX_ELEMENTS, "elements in all")
+                raise excess("lists", MAX_ELEMENTS, "elements in total")
         if not below:
             return total
         level = below

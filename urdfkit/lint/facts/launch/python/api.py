@@ -192,13 +192,13 @@ def wrong_keyword(kind: str, word: str) -> str | None:
 def incomplete_call(kind: str, call: ast.Call) -> tuple[ast.expr, str] | None:
     """Return the place and message for a call that passes an argument without its keyword, or lacks one."""
     if kind in ("OnExecutionComplete", "OnProcessExit", "OnProcessIO", "OnProcessStart") and call.args:
-        return call.args[0], f"`{kind}` accepts this argument by its keyword only; write `target_action=` before it"
+        return call.args[0], f"`{kind}` accepts this argument only by keyword; write `target_action=` before it"
     required = _REQUIRED.get(kind, "")
     names, words = required.lstrip("*").split(), {word.arg for word in call.keywords}
     if not names or None in words or any(isinstance(each, ast.Starred) for each in call.args):
         return None
     if required.startswith("*") and call.args:
-        return call.args[0], f"`{kind}` accepts this argument by its keyword only; write `{names[0]}=` before it"
+        return call.args[0], f"`{kind}` accepts this argument only by keyword; write `{names[0]}=` before it"
     lacking = [name for name in names[len(call.args) :] if name not in words]
     if not lacking or any(word not in _KEYWORDS[kind].split() for word in words if word is not None):
         return None

@@ -48,18 +48,18 @@ def wrong_lists(
         items = reader.items(listed)
         inner = next((item for item in items if isinstance(value_of(item, reader), (ast.List, ast.ListComp))), None)
         if inner is not None:
-            yield inner, "this list of actions is inside of another list; write `*` before it"
+            yield inner, "this list of actions is inside another list; write `*` before it"
     for item in reader.items(words.get("parameters")):
         value = value_of(item, reader)
         if isinstance(value, (ast.List, ast.BinOp)) and any(
             isinstance(value_of(each, reader), ast.Dict) for each in reader.items(value)
         ):
-            yield item, "this list of parameters is inside of another list; write `*` before it"
+            yield item, "this list of parameters is inside another list; write `*` before it"
     for each in (node for word in _LISTS if word in words for node in ast.walk(words[word])):
         if isinstance(each, ast.Call) and name_of(each.func) in ("list", "tuple") and len(each.args) == 1:
             text = each.args[0]
             if isinstance(text, ast.Constant) and isinstance(text.value, str):
-                yield text, "this makes a list of single letters; write the string in brackets"
+                yield text, "this creates a list of single letters; write the string in brackets"
     for item in reader.items(words.get("arguments")):
         items = item.elts if isinstance(item, ast.List) else []
         texts = [

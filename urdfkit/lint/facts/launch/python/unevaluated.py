@@ -82,7 +82,7 @@ def unevaluated_in_text(node: ast.BinOp | ast.JoinedStr, reader: LaunchReader) -
         for text, part in ((node.left, node.right), (node.right, node.left)):
             is_text = isinstance(text, (ast.Constant, ast.JoinedStr)) and (_is_text(text) or not _is_text(part))
             if is_text and (kind := called(part, reader)) in SUBSTITUTIONS:
-                yield part, f"a text and a `{kind}` cannot be added; write both in a list"
+                yield part, f"a string and a `{kind}` cannot be added; write both in a list"
 
 
 def _is_text(node: ast.expr) -> bool:

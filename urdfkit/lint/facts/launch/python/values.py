@@ -102,7 +102,7 @@ def _flags_as_files(call: ast.Call, kind: str, flags: set[str], reader: LaunchRe
         named = value.args[0] if isinstance(value, ast.Call) and value.args else None
         name = reader.text(named) if named is not None and called(item, reader) == "LaunchConfiguration" else None
         if name in flags:
-            message = f"an item of `parameters` is the value of `{name}`, which is no file; write {{'{name}': …}}"
+            message = f"an item of `parameters` is the value of `{name}`, which is not a file; write {{'{name}': …}}"
             yield item, message
 
 
@@ -119,7 +119,7 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
     elif kind == "PathJoinSubstitution":
         yield from _absolute_parts(reader.items(call.args[0]) if call.args else [], reader)
     elif kind == "ParameterValue" and "value_type" in words and _is_text(words["value_type"]):
-        yield words["value_type"], "`value_type` is a text; write a type, such as `str`, without quotes"
+        yield words["value_type"], "`value_type` is a string; write a type, such as `str`, without quotes"
     elif kind == "ParameterValue":
         yield from _of_command(call, words.get("value_type"), reader)
     yield from wrong_lists(call, kind, words, reader)
@@ -184,7 +184,7 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
     for item in reader.items(words["parameters"]) if "parameters" in words else ():
         value = value_of(item, reader)
         if _is_text(value) and value is item and (name := reader.text(value) or "") in reader.assigned:
-            yield value, f"an item of `parameters` is the text `{name}`; write the variable `{name}` without quotes"
+            yield value, f"an item of `parameters` is the string `{name}`; write the variable `{name}` without quotes"
         elif isinstance(value, ast.Set):
             yield value, "an item of `parameters` is a set; write a colon between name and value"
         elif called(item, reader) in _VALUES:
@@ -197,10 +197,10 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
                 and reader.text(key) == "robot_description"
                 and (path := _description_path(each, reader))
             ):
-                message = f"`robot_description` is the path of `{path}` and not its text; run xacro with `Command`"
+                message = f"`robot_description` is the path of `{path}`, not its text; run xacro with `Command`"
                 yield each, message
             elif key is not None and reader.text(key) == "robot_description" and _is_document(each, reader):
-                yield each, "`robot_description` is an XML document and not its text; write `.toxml()` after it"
+                yield each, "`robot_description` is an XML document, not its text; write `.toxml()` after it"
     for item in reader.items(words["arguments"]) if "arguments" in words else ():
         number = item.operand if isinstance(item, ast.UnaryOp) else item
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
