@@ -152,8 +152,8 @@ def cases() -> tuple[Case, ...]:
     belly, standing = between(0.03, 0.12), between(0.25, 0.4)
     stance, trot = (_robot(quadruped, 0.326, LEG_SERVOS, *poses) for poses in ((STANCE,), _trot()))
     result = [
-        Case(Scene("quadruped-limp", "on its belly with folded legs, awake", (folded,), belly), 5.0, 1.0, 1.0),
-        Case(Scene("quadruped-limp-sleep", "the same, may sleep", (folded,), belly), 5.0, 1.0, 1.0, sleep=True),
+        Case(Scene("quadruped-limp", "on its belly with folded legs, awake", (folded,), belly), 7.0, 1.0, 1.0),
+        Case(Scene("quadruped-limp-sleep", "the same, may sleep", (folded,), belly), 7.0, 1.0, 1.0, sleep=True),
         Case(Scene("quadruped-collapse", "collapsing", (collapsing,), between(0.03, 0.2)), 0.0, 1.5, 1.0),
         Case(Scene("quadruped-standing", "standing under servos", (stance,), standing), 1.0, 1.0, 2.0),
         Case(Scene("quadruped-trotting", "trotting under servos", (trot,), standing, turn=0.02), 1.0, 2.0, 1.0),

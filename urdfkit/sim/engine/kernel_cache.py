@@ -49,6 +49,7 @@ KERNEL_MODULES = (
     "solver/penalty_rows",
     "solver/row_states",
     "solver/sliding_contacts",
+    "solver/tree_guesses",
     "solver/tree_matrix",
     "sleep/robot_sleep",
     "sleep/sleep_criteria",

@@ -165,7 +165,7 @@ def test_a_humanoid_whose_motors_press_its_fingers_down_does_not_sink(tmp_path: 
     path = tmp_path / "humanoid.urdf"
     path.write_text(humanoid(42))
     simulator = Simulator(path)
-    random = np.random.default_rng(2)
+    random = np.random.default_rng(6)
     deepest = 0.0
     for step in range(250):
         if step % 50 == 0:
@@ -173,5 +173,5 @@ def test_a_humanoid_whose_motors_press_its_fingers_down_does_not_sink(tmp_path: 
                 simulator.motors.hold(name, random.uniform(-1.5, 1.5))
         simulator.step(10)
         deepest = max(deepest, *(contact.depth for contact in simulator.state.contacts), 0.0)
-    assert deepest < 2e-3  # it was 24 mm
-    assert simulator.world.builder.engine.iterated < 100  # 1277 steps did not satisfy the law
+    assert deepest < 2e-3  # it was 7 mm
+    assert simulator.world.builder.engine.iterated < 100  # in 3,000 steps, 818 did not satisfy the law

@@ -21,7 +21,6 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import ATTEMPT, LAST_ATTEMPT, MATRIX
-from urdfkit.sim.engine.solver.active_set_newton import fastest_row, iterate, regularise_tangents
 from urdfkit.sim.engine.solver.attempts import (
     BOUNDED,
     GUESSED,
@@ -33,7 +32,6 @@ from urdfkit.sim.engine.solver.attempts import (
     next_attempt,
     remember_attempt,
 )
-from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
 from urdfkit.sim.engine.solver.penalty_rows import (
     forget_matrix,
     imbalance,
@@ -43,6 +41,7 @@ from urdfkit.sim.engine.solver.penalty_rows import (
     prepare,
     row_velocities,
 )
+from urdfkit.sim.engine.solver.tree_guesses import MOST_GUESSED, solve_without_rounds
 from urdfkit.sim.engine.solver.tree_matrix import damped_inertia, factor_tree, multiply_inertia, solve_tree
 
 HARD, SOFT, SOFTEST, HARDEST = 1e3, 10.0, 3.0, 1e4
@@ -74,9 +73,7 @@ EVEN, MOVES = 0.99, 1e-3
 """The same for a robot that moves faster than the second value [m/s or rad/s], whose friction depends on that load."""
 FAIR = 1e-4
 """Velocity [m/s or rad/s] that the next round may still change for a result to be used where no round gains: of
-`LIFTING`, which is a fortieth of its correction, and of the last round of all attempts."""
-MOST_GUESSED = 100
-"""Rows up to which `GUESSED` follows where all rounds failed: of these, the motors of a humanoid are some forty."""
+`LIFTING`, which is a fortieth of its correction, and of the nearest round if all attempts fail."""
 FEW_ROWS, FEW_DOFS = 20, 15
 """Rows, and dofs, up to which `active_set_newton.solve` is used instead: it is exact, and quick where it is small."""
 MOST_ROWS, ATTEMPTS = 36, 5
@@ -233,29 +230,6 @@ def limit_energy(w: KernelWorld, tree: int, rows: int, brought: float) -> None:
 
 
 @compiled
-def solve_without_rounds(w: KernelWorld, tree: int, stride: int, rows: int, guesses: bool) -> int:
-    """Do what `solve_single_tree` does by the matrix of all rows, with guesses of the active set or only by sweeps.
-
-    Returns:
-        How many guesses it took; 0 if velocities only come near the law.
-    """
-    first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
-    # What `smooth_motion` left in u is L times the change of velocity without impulses.
-    for d in range(first, beyond):
-        w.u[d] = w.u_free[d] / w.inverse_diagonal[d]
-        e = w.dof_parent[d]
-        while e >= 0:
-            w.u[d] += w.L[w.dof_row[d] + e] * w.u_free[e]
-            e = w.dof_parent[e]
-    build_delassus(w, rows, tree, stride, False)
-    regularise_tangents(w, rows)
-    tried = iterate(w, rows, fastest_row(w, rows), MOST_GUESSED if guesses else 0)
-    apply_impulses(w, rows, tree, stride, False)
-    solve_forward(w, first, beyond)
-    return abs(tried)
-
-
-@compiled
 def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contacts: int) -> int:
     """Find the impulses x of the rows of a single tree, from ``before``; u becomes the change of its velocities.
 
@@ -286,8 +260,8 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     begin(w, tree, stride, rows, joint_rows, contacts, attempt)
     hardness, balance = SOFT if attempt == MOVING else HARD, BALANCE
     last_hardness = 0.0
-    total = taken = 0
-    before = math.inf
+    total = 0
+    before = nearest = math.inf
     met = False
     while attempt != GUESSED and total < (TOTAL + MORE if attempt == BOUNDED else TOTAL) and not met:
         bounded = attempt == BOUNDED
@@ -298,6 +272,10 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         taken = descend_tree(w, tree, stride, rows, joint_rows, contacts, hardness, balance, inertia, bounded)
         total += max(1, abs(taken))
         off = take_over(w, rows, hardness)
+        if taken >= 0 and off < nearest:
+            nearest = off
+            for k in range(rows):
+                w.near_x[k] = w.x[k]
         near = FAIR if attempt == LIFTING else NEAR
         if taken >= 0 and (off <= (NEAR if bounded else SOLVED) or GAIN * before < off <= near):
             met = balance == EXACT
@@ -308,7 +286,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
             and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY and off > CONVERGES * before))
         ):
             total = 0 if attempt == LIFTING else total
-            attempt = next_attempt(w, tree, attempt, joint_rows, rows, contacts)
+            attempt, nearest = next_attempt(w, tree, attempt, joint_rows, rows, contacts), math.inf
             hardness = SOFT if attempt == MOVING else HARD
             begin(w, tree, stride, rows, joint_rows, contacts, attempt)
             off = math.inf
@@ -321,7 +299,10 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         elif attempt >= MOVING or (attempt != RESTING and off > QUICK * before and off * off > SOLVED * before):
             hardness = min(HARDEST, HARDER * hardness)
         before = off
-    if not met and guessed and not (taken >= 0 and before <= FAIR):
+    if not met and nearest <= FAIR:
+        for k in range(rows):
+            w.x[k] = w.near_x[k]
+    elif not met and guessed:
         total = solve_without_rounds(w, tree, stride, rows, first_try != SWEPT)
         remember_attempt(w, tree, first_try, GUESSED if total > 0 else SWEPT)
         return total if total > 0 else -TOTAL
