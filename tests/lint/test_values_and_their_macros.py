@@ -98,3 +98,51 @@ def test_the_robot_without_mistakes_has_no_findings(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rover.urdf.xacro").write_text(ROBOT)
     assert lint("rover.urdf.xacro", select=CODES) == []
+
+
+WHEELS = """<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="wheel_radius" value="0.1"/>
+  <xacro:property name="wheel_width" value="0.04"/>
+  <xacro:property name="hub_width" value="0.03"/>
+  <xacro:property name="wheel" value="${dict(radius=0.1, width=0.04)}"/>
+  <xacro:macro name="tensor" params="m r h">
+    <inertia ixx="${m*(3*r*r + h*h)/12}" ixy="0" ixz="0" iyy="${m*(3*r*r + h*h)/12}" iyz="0" izz="${m*r*r/2}"/>
+  </xacro:macro>
+  <xacro:macro name="caster" params="name y">
+    <link name="${name}">
+      <inertial>
+        <mass value="1"/>
+        <xacro:tensor m="1" r="${wheel_radius}" h="${wheel_width}"/>
+      </inertial>
+      <collision><geometry><sphere radius="0.1"/></geometry></collision>
+    </link>
+    <joint name="${name}_joint" type="continuous">
+      <parent link="base"/><child link="${name}"/><origin xyz="0 ${y} 0"/><axis xyz="0 0 1"/>
+    </joint>
+  </xacro:macro>
+  <link name="base"/>
+  <xacro:caster name="left" y="0.2"/>
+  <xacro:caster name="right" y="-0.2"/>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("radius", "length", "is_wrong"),
+    [
+        ("${wheel_radius}", "${wheel_width}", False),
+        ("${wheel_width}", "${wheel_radius}", True),
+        ("${wheel['width']}", "${wheel['radius']}", True),
+        ("${hub_width}", "${wheel_radius}", False),  # sizes of two parts
+        ("${wheel_width/2}", "${wheel_radius}", False),
+        ("${wheel_radius}", "${wheel_radius}", False),
+    ],
+)
+def test_swapped_arguments_of_a_tensor(radius, length, is_wrong, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    call = 'r="${wheel_radius}" h="${wheel_width}"'
+    assert WHEELS.count(call) == 1
+    (tmp_path / "cart.urdf.xacro").write_text(WHEELS.replace(call, f'r="{radius}" h="{length}"'))
+    rows = [(each.line, each.message, each.help) for each in lint("cart.urdf.xacro", select=("I519",))]
+    message, help = "the call of macro `tensor` swaps radius and length", "swap the values of `r` and `h`"
+    assert rows == ([(13, message, help)] if is_wrong else [])

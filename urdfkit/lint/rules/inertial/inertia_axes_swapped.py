@@ -6,7 +6,10 @@ from itertools import permutations
 
 from urdfkit.description.urdf.robot import Cylinder, Link
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Expansion, Origin
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
+from urdfkit.lint.facts.inertia.swapped_arguments import swapped_arguments
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _ALIKE = 0.1
@@ -33,7 +36,8 @@ class InertiaAxesSwapped(RobotRule):
       ignored.
     - It agrees within 2 % with the moments of a cylinder with radius and length swapped.
 
-    Meshes are replaced by their bounding boxes.
+    Meshes are replaced by their bounding boxes. Also reports macro calls in ``<inertial>`` that pass the length of a
+    part as ``r`` and its radius as ``h``, such as ``r="${wheel_width}" h="${wheel_radius}"``.
 
     ## Why is this bad?
     The link accelerates too easily about one axis and too slowly about another. Often the cylinder of a wheel was
@@ -70,6 +74,10 @@ class InertiaAxesSwapped(RobotRule):
         """Yield a finding for each tensor with the moments of the shapes in another order."""
         for link in model.robot.links:
             inertial, extent = link.inertial, model.extents.get(link.name)
+            element = inertial.element.find("inertia") if inertial is not None else None
+            if element is not None and (swapped := swapped_arguments(model, element)) is not None:
+                yield self._of_call(model, element, *swapped)
+                continue
             if inertial is None or inertial.inertia is None or not inertial.mass or extent is None:
                 continue
             inertia = inertial.inertia
@@ -88,7 +96,7 @@ class InertiaAxesSwapped(RobotRule):
                 if not _is_of_swapped_cylinder(link, inertial.mass, actual, expected):
                     continue
                 message = f"the inertia of link `{link.name}` is that of a cylinder with radius and length swapped"
-            element = inertial.element.find("inertia") or inertial.element
+            element = element or inertial.element
             shown = " ".join(f"{value:.3g}" for value in expected)
             help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
             fix, origin = computed(model, link, element), inertial.element.find("origin")
@@ -100,6 +108,13 @@ class InertiaAxesSwapped(RobotRule):
                 yield self.at(model, origin, message, attribute="rpy", link=link.name, help=help)
             else:
                 yield self.at(model, element, message, link=link.name, help=help, fix=fix, kind=kind)
+
+    def _of_call(self, model: Model, element: Element, call: Expansion, radius: str, length: str) -> Finding:
+        """Return the finding for a macro call that swaps radius and length."""
+        chain = element.origin.expansions
+        place = Origin(call.position, chain[chain.index(call) + 1 :])
+        message = f"the call of macro `{call.macro}` swaps radius and length"
+        return self.at(model, place, message, attribute=radius, help=f"swap the values of `{radius}` and `{length}`")
 
 
 def _swapped(model: Model, element: Element, actual: Sequence[float], expected: Sequence[float]) -> str | None:
