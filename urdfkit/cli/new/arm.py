@@ -5,7 +5,7 @@ import sys
 
 from urdfkit.cli.new.change_workflow import add_description, apply, description, vector
 
-SUMMARY = "an arm, added to an existing description"
+SUMMARY = "an arm for an existing description"
 _SIZES = {"reach": "arm_reach", "mass": "arm_mass", "payload": "payload", "finger_travel": "finger_travel"}
 
 

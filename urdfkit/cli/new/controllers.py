@@ -26,8 +26,8 @@ SUMMARY = "controllers for the joints of an existing description"
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     parser.description = (
-        "write controllers: a differential drive for wheels, trajectories for arms and fingers; "
-        "joints with a drive stay unchanged"
+        "write controllers: a differential drive controller for wheels, trajectory controllers for arms and fingers; "
+        "joints that a plugin or a controller already drives stay unchanged"
     )
     parser.epilog = (
         "examples:\n"

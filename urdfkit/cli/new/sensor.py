@@ -7,7 +7,7 @@ from urdfkit.cli.new.change_workflow import add_description, apply, description,
 from urdfkit.defect_message import Suggestion
 from urdfkit.errors import UsageError, did_you_mean
 
-SUMMARY = "a sensor, added to an existing description"
+SUMMARY = "a sensor for an existing description"
 _KINDS = ("lidar", "lidar3d", "camera", "depth", "imu", "gps")
 _ALIASES = {
     **dict.fromkeys(("laser", "laserscan", "hokuyo", "rplidar", "sick", "scan"), "lidar"),
@@ -42,7 +42,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="position in LINK [m] (default: a free place on top, or at the front for cameras)",
     )
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
-    parser.add_argument("--topic", help="topic of the sensor; for cameras the prefix of the topics")
+    parser.add_argument("--topic", help="topic of the sensor; for cameras, the prefix of the topics")
     parser.add_argument("--update-rate", metavar="HZ", help="measurements per second [Hz]")
 
 

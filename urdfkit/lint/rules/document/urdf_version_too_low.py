@@ -61,7 +61,7 @@ class UrdfVersionTooLow(RobotRule):
         else:
             fix = more_attributes(model, root, f'version="{needed}"', "unsafe", title)
         for name, elements in uses.items():
-            effect = "urdfdom drops the shape" if name == "capsule" else "it is ignored"
+            effect = "urdfdom drops the shape" if name == "capsule" else "readers ignore the attribute"
             message = f"{later_feature(name, declared)}: {effect}{other_uses(elements)}"
             reason = "" if shown(FIRST_VERSIONS[name]) == needed else f", which `{latest}` needs"
             help = f'write version="{needed}" in <robot>{reason}, if all readers of the robot support it'

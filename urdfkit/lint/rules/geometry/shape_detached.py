@@ -23,7 +23,7 @@ class ShapeDetached(RobotRule):
     inertia of the link is also too small for this distance (by the criterion of I508). Meshes that are too large are
     reported by G604. Two kinds of shapes are not checked:
 
-    - visual shapes that are more than half transparent, because they often show the view of a sensor
+    - visual shapes that are more than half transparent, because they often represent the field of view of a sensor
     - collision spheres around the whole link, of up to a hundred times its size, because they keep obstacles away
 
     ## Why is this bad?
