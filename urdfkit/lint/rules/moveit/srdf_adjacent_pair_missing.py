@@ -26,7 +26,7 @@ class SrdfAdjacentPairMissing(RobotRule):
     pairs. A pair is reported if both links occur in other disabled pairs, or if all other adjacent pairs are disabled.
     If both links occur in disabled pairs, two other kinds of pairs are also reported:
 
-    - links that overlap with every joint at zero and that only fixed or prismatic joints separate, such as the first
+    - links that overlap with every joint at zero and are separated only by fixed or prismatic joints, such as the first
       and the last stage of a telescope
     - the only pair of a limb, with one link in between, that is not disabled although its counterpart on the other side
       of the robot is disabled
