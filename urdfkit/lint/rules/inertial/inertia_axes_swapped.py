@@ -73,41 +73,44 @@ class InertiaAxesSwapped(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor with the moments of the shapes in another order."""
         for link in model.robot.links:
-            inertial, extent = link.inertial, model.extents.get(link.name)
-            element = inertial.element.find("inertia") if inertial is not None else None
-            if element is not None and (swapped := swapped_arguments(model, element)) is not None:
+            found = list(self._of_shapes(model, link))
+            yield from found
+            element = link.inertial.element.find("inertia") if link.inertial is not None else None
+            swapped = swapped_arguments(model, element) if element is not None and not found else None
+            if element is not None and swapped is not None:
                 yield self._of_call(model, element, *swapped)
-                continue
-            if inertial is None or inertial.inertia is None or not inertial.mass or extent is None:
-                continue
-            inertia = inertial.inertia
-            actual = (inertia.ixx, inertia.iyy, inertia.izz)
-            tensor = tensor_of(link, extent, inertial.mass) if min(actual) > 0.0 else None
-            if tensor is None or min(tensor[0], tensor[3], tensor[5]) <= 0.0:
-                continue
-            expected = (tensor[0], tensor[3], tensor[5])
-            products = max(
-                abs(each) for each in (tensor[1], tensor[2], tensor[4], inertia.ixy, inertia.ixz, inertia.iyz)
-            )
-            if products > _ALIKE * min(*actual, *expected) or _difference(actual, expected) < _UNLIKE:
-                continue
-            message = f"ixx, iyy and izz of link `{link.name}` are the moments of its shapes in a different order"
-            if min(_difference(actual, order) for order in permutations(expected)) > _ALIKE:
-                if not _is_of_swapped_cylinder(link, inertial.mass, actual, expected):
-                    continue
-                message = f"the inertia of link `{link.name}` is that of a cylinder with radius and length swapped"
-            element = element or inertial.element
-            shown = " ".join(f"{value:.3g}" for value in expected)
-            help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
-            fix, origin = computed(model, link, element), inertial.element.find("origin")
-            axes = _swapped(model, element, actual, expected) if fix is None else None
-            kind = "swapped" if message.endswith("swapped") else "turned" if _is_turned(link) else ""
-            if axes is not None:
-                yield self.at(model, element, message, attribute=axes, link=link.name, help=help, kind=kind)
-            elif fix is None and origin is not None and _lacks_rotation(link):
-                yield self.at(model, origin, message, attribute="rpy", link=link.name, help=help)
-            else:
-                yield self.at(model, element, message, link=link.name, help=help, fix=fix, kind=kind)
+
+    def _of_shapes(self, model: Model, link: Link) -> Findings:
+        """Yield the finding for a tensor that is not that of the shapes of its link."""
+        inertial, extent = link.inertial, model.extents.get(link.name)
+        if inertial is None or inertial.inertia is None or not inertial.mass or extent is None:
+            return
+        inertia = inertial.inertia
+        actual = (inertia.ixx, inertia.iyy, inertia.izz)
+        tensor = tensor_of(link, extent, inertial.mass) if min(actual) > 0.0 else None
+        if tensor is None or min(tensor[0], tensor[3], tensor[5]) <= 0.0:
+            return
+        expected = (tensor[0], tensor[3], tensor[5])
+        products = max(abs(each) for each in (tensor[1], tensor[2], tensor[4], inertia.ixy, inertia.ixz, inertia.iyz))
+        if products > _ALIKE * min(*actual, *expected) or _difference(actual, expected) < _UNLIKE:
+            return
+        message = f"ixx, iyy and izz of link `{link.name}` are the moments of its shapes in a different order"
+        if min(_difference(actual, order) for order in permutations(expected)) > _ALIKE:
+            if not _is_of_swapped_cylinder(link, inertial.mass, actual, expected):
+                return
+            message = f"the inertia of link `{link.name}` is that of a cylinder with radius and length swapped"
+        element = inertial.element.find("inertia") or inertial.element
+        shown = " ".join(f"{value:.3g}" for value in expected)
+        help = f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>"
+        fix, origin = computed(model, link, element), inertial.element.find("origin")
+        axes = _swapped(model, element, actual, expected) if fix is None else None
+        kind = "swapped" if message.endswith("swapped") else "turned" if _is_turned(link) else ""
+        if axes is not None:
+            yield self.at(model, element, message, attribute=axes, link=link.name, help=help, kind=kind)
+        elif fix is None and origin is not None and _lacks_rotation(link):
+            yield self.at(model, origin, message, attribute="rpy", link=link.name, help=help)
+        else:
+            yield self.at(model, element, message, link=link.name, help=help, fix=fix, kind=kind)
 
     def _of_call(self, model: Model, element: Element, call: Expansion, radius: str, length: str) -> Finding:
         """Return the finding for a macro call that swaps radius and length."""
