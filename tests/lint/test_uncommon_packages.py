@@ -283,3 +283,59 @@ def test_names_without_the_prefix_of_all_others(tmp_path, joints, count):
     write(tmp_path, {"arm.urdf.xacro": OTHER, "cart.srdf": STATE.format(state)})
     robot = f'<robot name="cart"><link name="world"/>{arm("arm_")}</robot>'
     assert sum("does not exist in robot" in each for each in found(tmp_path, "M104", robot=robot)) == count
+
+
+@pytest.mark.parametrize(
+    ("installed", "count"),
+    [
+        ("PROGRAMS scripts/detector.py", 1),  # a script with the name of the missing file
+        ("FILES generated/detector.yaml", 0),
+        ("PROGRAMS scripts/${detector}", 0),
+    ],
+)
+def test_a_missing_file_with_the_name_of_a_script(tmp_path, installed, count):
+    text = f"project(cart)\nfind_package(ament_cmake REQUIRED)\ninstall({installed} DESTINATION lib/cart)\n"
+    files = {"scripts/detector.py": "", "config/eggs.yaml": "a: 1\n", "CMakeLists.txt": text + "ament_package()\n"}
+    path = '<param from="$(find-pkg-share cart)/config/detector.yaml"/>'
+    start = f'<launch><node pkg="joy" exec="joy_node">{path}</node></launch>'
+    write(tmp_path, files | {"launch/start.launch.xml": start})
+    assert sum("does not exist in package" in each for each in found(tmp_path, "K958")) == count
+
+
+BRUSH = """controller_manager:
+  ros__parameters:
+    brush_controller:
+      type: {}
+brush_controller:
+  ros__parameters:
+    joints: [brush]
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "new", "count"),
+    [
+        ("forward_command_controller/ForwardCommandController", "brush_controller/commands", 0),
+        ("forward_command_controller/ForwardCommandController", "/brush_controller/command", 1),
+        ("forward_command_controller/ForwardCommandController", "other_controller/command", 0),
+        ("joint_trajectory_controller/JointTrajectoryController", "brush_controller/commands", 1),
+        ("own_controllers/BrushController", "brush_controller/command", 0),
+    ],
+)
+def test_remappings_to_topics_of_controllers(tmp_path, kind, new, count):
+    start = launch("", f"Node(package='cart', executable='brush', remappings=[('out', '{new}')])")
+    messages = found(tmp_path, "K980", start=start, yaml=BRUSH.format(kind))
+    assert sum("has no topic or action" in message for message in messages) == count
+
+
+SPACED = """<launch><node pkg="joy" exec="joy_node" namespace="pad"/>
+<node pkg="robot_localization" exec="ekf_node" name="ekf"><param from="$(find-pkg-share cart)/config/b.yaml"/></node>
+</launch>"""
+
+
+@pytest.mark.parametrize(("topic", "count"), [("/odom", 1), ("odom", 0), ("/base/odom", 0)])
+def test_absolute_names_beside_nodes_in_namespaces(tmp_path, topic, count):
+    """A namespace may complete the relative name `odom`, but not `/odom`."""
+    text = FILTER.format("true", ", ".join(["false"] * 6)).replace("twist0", "odom0").replace("dvl", topic)
+    write(tmp_path, {"config/b.yaml": text, "launch/start.launch.xml": SPACED})
+    assert len(found(tmp_path, "K977", yaml=DRIVE)) == count

@@ -49,10 +49,11 @@ class Watch:
         self.simulator = simulator
         self.found = found
         self.walls = Walls(simulator)
-        kinematics = simulator.kinematics
-        shaped = {shape.body for shape in simulator.scene.with_role("collision")}
-        self._solid = [i for i, name in enumerate(kinematics.link_names) if name in shaped]
-        self._centres = np.array([self._centre_of(kinematics.link_names[i]) for i in self._solid])
+        # A middle of several shapes, such as the pads of a foot, may be beside a board that the foot stands across.
+        indices = {name: i for i, name in enumerate(simulator.kinematics.link_names)}
+        shapes = [shape for shape in simulator.scene.with_role("collision") if shape.body in indices]
+        self._solid = [indices[shape.body] for shape in shapes]
+        self._centres = np.array([[*shape.placement[:3, 3], 1.0] for shape in shapes])
         self.begin()
 
     def begin(self) -> None:
@@ -159,16 +160,12 @@ class Watch:
         return outside or (upright < TIPPED and not may_lie)
 
     def _points(self) -> Array:
-        """Return the middles of the robot's links that can touch something, then those of bodies; shape (n, 3)."""
+        """Return the middles of the robot's shapes that can touch something, then those of bodies; shape (n, 3)."""
         poses = self.simulator.link_poses()
         points = [(matrix(poses[i]) @ centre)[:3] for i, centre in zip(self._solid, self._centres, strict=True)]
         for body in self.simulator.world.bodies.values():
             points.append((matrix(body.pose) @ np.array([*body.body.centre, 1.0]))[:3])
         return np.array(points)
-
-    def _centre_of(self, link: str) -> Array:
-        own = [shape.placement[:3, 3] for shape in self.simulator.scene.with_role("collision") if shape.body == link]
-        return np.array([*np.mean(own, axis=0), 1.0])
 
 
 def _motion(body: FreeBody) -> tuple[float, float]:

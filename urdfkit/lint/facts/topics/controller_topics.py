@@ -18,6 +18,7 @@ from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import yamls
+from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.topics.graph import published_by_type
 from urdfkit.lint.facts.topics.own_ends import End, own_ends
 from urdfkit.lint.facts.topics.robot_topics import last
@@ -41,7 +42,7 @@ _LITERAL = r"[\"']/?((?:[\w/]|\{[^{}\"'\n]{1,60}\}|%s)+)/(\w+)[\"']"
 
 
 def wrong_inputs(model: Model) -> Iterator[tuple[Source, Named, str]]:
-    """Yield the topics and actions below the name of a controller in code that the controller does not have."""
+    """Yield the topics and actions below the name of a controller that it does not have, in code and remappings."""
     inputs: dict[str, set[str]] = {}
     for source in yamls(model):
         version = 0 if PARAMETERS in source.text else 1
@@ -49,6 +50,13 @@ def wrong_inputs(model: Model) -> Iterator[tuple[Source, Named, str]]:
             entry = next((each for each in _INPUTS if re.fullmatch(each[0], one.kind)), None)
             own = {entry[1][version], entry[2]} - {""} if entry is not None else {*_EVERY}
             inputs.setdefault(one.name, set()).update(own)
+    for node in launched_nodes(model) if inputs else ():
+        for _, new in node.remappings:
+            space, _, name = new.name.strip("/").rpartition("/")
+            accepted = inputs.get(space.rpartition("/")[2], set())
+            if name in _EVERY and accepted and name not in accepted:
+                start = new.start + new.name.rstrip("/").rfind("/") + 1
+                yield node.source, Named(name, start), _message(space.rpartition("/")[2], name, accepted)
     packages = neighbours(model.package) if model.package is not None and inputs else {}
     for folder in packages.values():
         model.expanded.packages.watch(folder)
@@ -60,10 +68,17 @@ def wrong_inputs(model: Model) -> Iterator[tuple[Source, Named, str]]:
                 line = text[text.rfind("\n", 0, at.start()) + 1 : at.start()]
                 if at[2] not in _EVERY or not accepted or at[2] in accepted or re.match(r"\s*(?:#|//|\*)", line):
                     continue
-                names = sorted(accepted)
-                right = Suggestion(names[0], at[2]) if len(names) == 1 else f"; use `{'` or `'.join(names)}`"
-                message = f"controller `{found[0]}` has no topic or action `{at[2]}`" + right
-                yield Source(shown_path(path), text), Named(at[2], at.start(2)), message
+                yield (
+                    Source(shown_path(path), text),
+                    Named(at[2], at.start(2)),
+                    _message(found[0], at[2], accepted),
+                )
+
+
+def _message(controller: str, name: str, accepted: set[str]) -> str:
+    names = sorted(accepted)
+    right = Suggestion(names[0], name) if len(names) == 1 else f"; use `{'` or `'.join(names)}`"
+    return f"controller `{controller}` has no topic or action `{name}`" + right
 
 
 _GLOBAL = ("clock", "joint_states", "tf", "tf_static")

@@ -153,8 +153,11 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, list[str]
         ):
             continue
         topics = topics - filtered if mention.is_input or mention.type == "NavSatFix" else topics
+        # The namespace of a node does not change the name of a topic that begins with a slash.
         is_below = any(
-            f"/{one}".endswith(f"/{other}") for each in topics for one, other in ((each, topic), (topic, each))
+            f"/{topic}".endswith(f"/{each}")
+            or (f"/{each}".endswith(f"/{topic}") and not mention.topic.name.startswith("/"))
+            for each in topics
         )
         is_other = topic.startswith("odometry/") or topic.partition("/")[0] in controllers
         is_open = (is_below and (in_namespaces or not is_all)) or ((is_other or len(topics) > 1) and not is_all)

@@ -105,8 +105,14 @@ def _exists(package: Path, path: str, model: Model) -> bool:
         return False
     if inside:
         return True
-    stem = rf"(?<![\w-]){re.escape(Path(path).name.partition('.')[0])}(?![\w-])"
+    name, _, ending = Path(path).name.partition(".")
+    is_code = re.fullmatch(_CODE, ending) is not None
+    stem = rf"(?<![\w-]){re.escape(name)}(?![\w-])" + ("" if is_code else rf"(?!\.{_CODE}\b)")
     return any(re.search(stem, text) for text in texts)
+
+
+_CODE = r"(?:py|c|cc|cpp|cxx|h|hpp|msg|srv|action)"
+"""Matches the ending of a file that no other file is generated from under the same name."""
 
 
 def _keeps_folder(folder: str, texts: list[str]) -> bool:
