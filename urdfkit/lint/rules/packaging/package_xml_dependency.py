@@ -5,11 +5,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from urdfkit.defect_message import Suggestion
-from urdfkit.description.control.controller_types import TYPES
 from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, neighbours, package_of
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
-from urdfkit.lint.facts.ros_packages import is_in_metapackage, misspelling_of, names
+from urdfkit.lint.facts.ros_packages import is_in_metapackage, misspelling_of
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -19,18 +17,6 @@ warehouse.launch warehouse_settings.launch.xml
 """
 """Launch files in the templates of moveit_setup_assistant that need packages which its package.xml leaves out."""
 
-_OF_ROS1 = ("joint_state_controller", "imu_sensor_controller", "force_torque_sensor_controller")
-"""Packages of controllers that only ROS 1 has."""
-
-_GRIPPERS = "gripper_controllers"
-"""Package of ``GripperActionController`` in ROS 2, whose types have the names of other packages."""
-
-_PACKAGES_OF_ROS1 = {
-    "GripperActionController": "gripper_action_controller",
-    "JointTrajectoryController": "joint_trajectory_controller",
-}
-"""Class of a controller in ROS 1 → its package; the other packages have the name before the class."""
-
 _NOT_AT_RUN_TIME = ("build_depend", "buildtool_depend", "doc_depend", "test_depend")
 """Elements of package.xml whose packages are not installed for users of the package (REP 149)."""
 
@@ -38,14 +24,11 @@ _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
 
 
-_NAVIGATION_PLUGIN = (
-    r"(?m)^[ \t]*(?:plugin:[ \t]*[\"']?(?=nav2_)|base_(?:local|global)_planner:[ \t]*[\"']?)(\w+)(?:::|/)\w+"
-)
-_OF_MOVE_BASE = ("base_local_planner", "clear_costmap_recovery", "costmap_2d", "navfn", "rotate_recovery")
-"""Packages on which move_base depends."""
-
 _COVERED = {"tf2_ros": "tf2_ros_py", "tf2_py": "tf2_ros"}
 """Package that code imports → another package that installs it."""
+
+
+_ADD = "add <exec_depend>{}</exec_depend> to package.xml"
 
 
 class PackageXmlDependency(RobotRule):
@@ -152,8 +135,7 @@ class PackageXmlDependency(RobotRule):
         yield from self._check_launch_files(model, folders)
         yield from self._check_code(model)
         yield from self._check_moveit(model, folders)
-        yield from self._check_controllers(model)
-        yield from self._check_navigation_plugins(model)
+        yield from self._check_yaml(model)
         yield from self._check_simulated_control(model)
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
@@ -207,52 +189,16 @@ class PackageXmlDependency(RobotRule):
                 if name not in {*needed, files.name} and not is_covered and not is_in_metapackage(name, needed):
                     yield self._missing(name, source, start, end, set())
 
-    def _check_controllers(self, model: Model) -> Findings:
-        """Yield a finding for each package of a controller in YAML that none of the related packages depends on."""
-        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+    def _check_yaml(self, model: Model) -> Findings:
+        """Yield a finding for each package of a controller or plugin in YAML on which no related package depends."""
+        from urdfkit.lint.facts.packages_in_yaml import packages_of_controllers, packages_of_plugins
 
-        files = list(yamls(model))
         needed = _needed(model)
-        if not files or not needed:
-            return
-        kinds = {kind.partition("/")[0] for kind in TYPES}
-        if needed.isdisjoint({*kinds, "controller_manager", "ros2_control", "ros_control", "gazebo_ros_control"}):
-            return  # another package starts the controllers
-        for source in files:
-            package = package_of(Path(source.file))
-            if PARAMETERS not in source.text and package is not None:
-                yield from self._of_ros1(source, package, needed, model)
-            for controller in declared(source) if package is not None else ():
-                name, _, kind = controller.kind.text.partition("/")
-                # controller-type-wrong-generation reports types of ROS 1.
-                if name in _OF_ROS1 or controller.kind.text not in TYPES or name not in names():
-                    continue
-                if kind == "GripperActionController":
-                    name = _GRIPPERS
-                if name not in needed and not is_in_metapackage(name, needed):
-                    needed.add(name)
-                    span = span_of(source, controller.kind)
-                    message = f"missing dependency on `{name}`, which provides controller `{controller.name}`"
-                    help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                    yield self.at_span(span, message, help=help, names=(name,))
-
-    def _check_navigation_plugins(self, model: Model) -> Findings:
-        """Yield a finding for each package of Nav2 plugins on which none depends, unlike on those of the others."""
-        needed = _needed(model)
-        for source in yamls(model):
-            uses: dict[str, re.Match[str]] = {}
-            for match in re.finditer(_NAVIGATION_PLUGIN, source.text):
-                if match[1] not in _OF_MOVE_BASE or "move_base" not in needed:
-                    uses.setdefault(match[1], match)
-            missing = [name for name in uses if name not in needed and not is_in_metapackage(name, needed)]
-            is_listed = len(missing) < len(uses) / 2 or "move_base" in needed
-            for name in missing if is_listed else ():
-                if name in names():
-                    needed.add(name)
-                    span = source.span(*uses[name].span(1))
-                    help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                    message = f"missing dependency on `{name}`, whose plugin this file uses"
-                    yield self.at_span(span, message, help=help, names=(name,))
+        for use in (*packages_of_controllers(model, needed), *packages_of_plugins(model, needed)):
+            kind = "controller type" if use.is_type else ""
+            message, help = f"missing dependency on `{use.package}`, {use.use}", _ADD.format(use.package)
+            span = use.source.span(use.start, use.end)
+            yield self.at_span(span, message, help=help, kind=kind, names=(use.package,))
 
     def _check_simulated_control(self, model: Model) -> Findings:
         """Yield a finding for the plugin that runs controllers, if the packages depend on that of another Gazebo."""
@@ -267,7 +213,7 @@ class PackageXmlDependency(RobotRule):
             if used is not None and used not in needed and (others or starters):
                 message = f"missing dependency on `{used}`, whose plugin the robot loads"
                 message += f"; the packages name `{others[0]}`" if others else ""
-                help = f"add <exec_depend>{used}</exec_depend> to package.xml"
+                help = _ADD.format(used)
                 hardware = [each.text for block in model.robot.ros2_control for each in block.element.walk()]
                 is_of_other = any(text.startswith(f"{name}/") for name in others[:1] for text in hardware)
                 kind = "foreign" if is_of_other else ""
@@ -294,7 +240,7 @@ class PackageXmlDependency(RobotRule):
             own.add(use.package)
             span = use.source.span(use.start, use.end)
             message = f"missing dependency on `{use.package}`, {use.use}"
-            help = f"add <exec_depend>{use.package}</exec_depend> to package.xml"
+            help = _ADD.format(use.package)
             yield self.at_span(span, message, help=help, names=(use.package,), kind="own" if use.is_own else "")
 
     def _not_at_run_time(self, name: str, package: Path, model: Model, reported: set[tuple[Path, str]]) -> Findings:
@@ -310,24 +256,6 @@ class PackageXmlDependency(RobotRule):
             span = manifest.span(uses[0].start(), uses[0].end() - 1)
             help = f"write <{written}>, or <depend> if the build needs the package too"
             yield self.at_span(span, message, help=help, names=(name,))
-
-    def _of_ros1(self, source: Source, package: Path, needed: set[str], model: Model) -> Findings:
-        """Yield a finding for each package of a ROS 1 controller that none of the related packages depends on."""
-        from urdfkit.lint.facts.control.controller_joints import typed
-
-        if "catkin" not in model.manifest(package) or (package / ".setup_assistant").is_file():
-            return
-        for reference in typed(source):
-            space, _, kind = reference.name.partition("/")
-            name = _PACKAGES_OF_ROS1.get(kind, space)
-            if reference.name in TYPES and name in names() and name not in needed:
-                if is_in_metapackage(name, needed):
-                    continue
-                needed.add(name)
-                span = source.span(reference.start, reference.end)
-                message = f"missing dependency on `{name}`, which has the controller type `{reference.name}`"
-                help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                yield self.at_span(span, message, help=help, kind="controller type", names=(name,))
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.launch.ros_version import reads_version
