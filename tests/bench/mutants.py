@@ -266,7 +266,7 @@ def is_found(mutant: Mutant) -> tuple[bool, list[str]]:
     changed = text[: mutant.start] + mutant.text + text[mutant.end :]
     if mutant.code == "J403":
         line = last = text.count("\n", 0, text.rfind("<joint", 0, mutant.start)) + 1
-    names = (f"of line {line} ", f"{mutant.file}:{line}")
+    names = (f"on line {line} ", f"{mutant.file}:{line}")
     if mutant.code == "E001":  # the start tag whose end tag is missing
         line = text.count("\n", 0, text.rfind("<link", 0, mutant.start)) + 1
     findings = run([Entry(entry)], Options(texts={str(path): changed})).findings

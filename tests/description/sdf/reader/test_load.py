@@ -480,7 +480,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
     [
         ("<gravity>0 0</gravity>", "<gravity> is `0 0`; it must be 3 finite numbers"),
         ("<gravity>0 0 nan</gravity>", "<gravity> is `0 0 nan`"),
-        ("<gravity>0,0,-9.8</gravity>", "<gravity> is `0,0,-9.8`; it must be 3 finite numbers (a decimal comma"),
+        ("<gravity>0,0,-9.8</gravity>", "<gravity> is `0,0,-9.8`; it must be 3 finite numbers (write a decimal point"),
         ("<physics><max_step_size>0</max_step_size></physics>", "<max_step_size> is 0 s; it must be greater than zero"),
         ("<include/>", "<include> has no <uri>"),
         ("<include><uri>model://taable</uri></include>", "or among the bundled models; did you mean `table`?"),
