@@ -404,6 +404,7 @@ TYPESUPPORT = 'rosidl_get_typesupport_target(support cart_msgs "rosidl_typesuppo
         ("catkin", "cart/Row.h", "add_dependencies(part ${catkin_EXPORTED_TARGETS})\n", ["10: target `part`"]),
         ("catkin", "cart/Row.h", "add_dependencies(part ${${PROJECT_NAME}_EXPORTED_TARGETS})\n", []),
         ("catkin", "cart/Row.h", "add_dependencies(part cart_generate_messages_cpp)\n", []),
+        ("catkin", "cart/Row.h", "add_dependencies(${target} cart_generate_messages_cpp)\n", []),  # in a loop
         ("catkin", "ros/ros.h", "", []),
         ("ament_cmake", "cart/msg/row.hpp", "", ["6: target `part` includes `cart/msg/row.hpp`, but may be built"]),
         ("ament_cmake", "cart/msg/row.hpp", TYPESUPPORT + "target_link_libraries(part ${support})\n", []),

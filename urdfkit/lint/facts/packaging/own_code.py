@@ -119,6 +119,8 @@ def before_messages(
         if each.name in ("add_dependencies", "rosidl_target_interfaces") and each.words
         if any(re.search(_GENERATED, word) for word, _ in each.words[1:]) or each.name.startswith("rosidl_")
     }
+    if any("$" in name for name in waiting):
+        return  # a loop over targets
     for target in own.values():
         reached = linked(target, own, files)
         words = [word for name in reached for word in own[name].words]
