@@ -2,19 +2,9 @@
 
 import pytest
 
-from tests.lint.test_build_files import write
+from tests.lint.test_build_files import MANIFEST, write
 from urdfkit.lint import lint
 
-MANIFEST = """<package format="3">
-  <name>cart</name>
-  <version>1.0.0</version>
-  <description>A cart.</description>
-  <maintainer email="cart@example.com">The maintainers</maintainer>
-  <license>MIT</license>
-  <buildtool_depend>{0}</buildtool_depend>
-  <export><build_type>{0}</build_type></export>
-</package>
-"""
 FILES = {
     "cart.urdf": '<robot name="cart"><link name="base_link"/></robot>\n',
     "msg/RowState.msg": "float64 offset\n",
@@ -54,7 +44,7 @@ def found(folder, **files):
     ],
 )
 def test_interfaces_in_python(tmp_path, tool, code, messages):
-    assert found(tmp_path, python=f"{code}\n", manifest=MANIFEST.format(tool)) == messages
+    assert found(tmp_path, python=f"{code}\n", manifest=MANIFEST.replace("ament_cmake", tool)) == messages
 
 
 @pytest.mark.parametrize(
@@ -74,7 +64,7 @@ def test_interfaces_in_python(tmp_path, tool, code, messages):
 )
 def test_interfaces_in_cpp(tmp_path, header, messages):
     write(tmp_path, {"include/cart/loadd.h": "#pragma once\n"})
-    assert found(tmp_path, cpp=f"#include <{header}>\n", manifest=MANIFEST.format("ament_cmake")) == messages
+    assert found(tmp_path, cpp=f"#include <{header}>\n", manifest=MANIFEST) == messages
 
 
 SETUP = """from setuptools import setup
@@ -102,7 +92,7 @@ setup(
     ],
 )
 def test_modules_next_to_a_module(tmp_path, code, more, messages):
-    manifest = MANIFEST.format("ament_python")
+    manifest = MANIFEST.replace("ament_cmake", "ament_python")
     files = {"cart.urdf": FILES["cart.urdf"], "package.xml": manifest, "setup.py": SETUP.format(more)}
     modules = {"__init__": "", "stops": "", "json": "", "node": f"{code}\n\n\ndef main():\n    pass\n"}
     write(tmp_path, files | {f"cart/{name}.py": text for name, text in modules.items()})

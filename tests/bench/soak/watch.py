@@ -49,7 +49,7 @@ class Watch:
         self.simulator = simulator
         self.found = found
         self.walls = Walls(simulator)
-        # A middle of several shapes, such as the pads of a foot, may be beside a board that the foot stands across.
+        # The middle of several shapes, such as the pads of a foot, may be in a board that the foot stands astride.
         indices = {name: i for i, name in enumerate(simulator.kinematics.link_names)}
         shapes = [shape for shape in simulator.scene.with_role("collision") if shape.body in indices]
         self._solid = [indices[shape.body] for shape in shapes]

@@ -24,7 +24,7 @@ from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.project.code_files import node_texts
 
 _KINDS = {"msg": "message", "srv": "service", "action": "action"}
-_OF_ACTIONS = ("", "Action", "Goal", "Result", "Feedback", "ActionGoal", "ActionResult", "ActionFeedback")
+_OF_ACTIONS = ("Action", "Goal", "Result", "Feedback", "ActionGoal", "ActionResult", "ActionFeedback")
 """Ends of the names of the messages that ROS 1 generates for an action."""
 
 _RELEASED = {"std_srvs": "srv", "std_msgs": "msg", "geometry_msgs": "msg", "trajectory_msgs": "msg"}
@@ -85,7 +85,6 @@ def _in_cpp(path: Path, text: str, near: Mapping[str, Path]) -> Defects:
         interfaces = _interfaces(folder) if folder is not None else {}
         if folder is None or not interfaces or is_file(folder / "include" / header) or is_file(folder / header):
             continue
-        names = {each: {_snake(name): name for name in interfaces[each]} for each in interfaces}
         if kind is None and header.endswith(".hpp"):
             continue
         headers = included(path) if headers is None else headers
@@ -98,6 +97,7 @@ def _in_cpp(path: Path, text: str, near: Mapping[str, Path]) -> Defects:
                 message = f"`{package}` has no message, service or action `{stem}`" + Suggestion(slip, stem)
                 yield Source(shown_path(path), text), at.start(4), stem, message
             continue
+        names = {each: {_snake(name): name for name in interfaces[each]} for each in interfaces}
         others = [each for each in names if stem in names[each]]
         slip = next((name for name in sorted(names.get(kind, ())) if _is_near(stem, name)), None)
         if others and kind not in others:
@@ -132,11 +132,11 @@ def _siblings(path: Path, text: str, files: BuildFiles, near: Collection[str]) -
 @kept
 def _interfaces(folder: Path) -> dict[str, set[str]]:
     """Return kind → the names of the messages, services and actions of a package that Python can import."""
-    files = {kind: {path.stem for path in (folder / kind).glob("*.*")} for kind in _KINDS}  # .msg, .idl
+    files = {kind: {path.stem for end in (kind, "idl") for path in (folder / kind).glob(f"*.{end}")} for kind in _KINDS}
     if not any(files.values()):
         return {}
     if re.search(r"<buildtool_depend>\s*catkin\s*<", _text(folder / "package.xml")):
-        files["msg"] |= {name + end for name in files["action"] for end in _OF_ACTIONS if end}
+        files["msg"] |= {name + end for name in files["action"] for end in _OF_ACTIONS}
         files["srv"] |= {name + end for name in files["srv"] for end in ("Request", "Response")}
         files["action"] = set()
     return files

@@ -61,10 +61,10 @@ def along_tubes(model: Model) -> Iterator[Misplaced]:
 
     Yields:
         A joint at the opposite end: as far from the frame of its tube as the tube is long, with the other sign, where
-        no link is fixed to the tube. A joint as far along its tube as the next tube is long, if another tube
-        has a joint at its end. Or the only joint that is not at the end of its tube, if it carries a tube, does not
-        turn about the axis of its own tube and several others are at the ends of theirs. Only tubes with one moving
-        link count for the last two.
+        no other link that is fixed to the tube reaches. A joint as far along its tube as the next tube is long, if
+        another tube has a joint at its end. Or the only joint that is not at the end of its tube, if it carries a tube,
+        does not turn about the axis of its own tube and several others are at the ends of theirs. Only tubes with one
+        moving link count for the last two.
     """
     tubes = {link: tube for link, extent in model.extents.items() if (tube := _tube(extent)) is not None}
     carried = Counter(joint.parent for joint in model.robot.joints if joint.is_movable)
@@ -78,14 +78,15 @@ def along_tubes(model: Model) -> Iterator[Misplaced]:
         tube, element = tubes.get(joint.parent or ""), origin_of(joint)
         if tube is None or model.is_unresolved(element, "xyz"):
             continue
-        found = Misplaced(
-            joint, element, joint.origin.xyz[tube.axis] * (-1.0 if tube.end < 0.0 else 1.0), abs(tube.end)
-        )
+        sign = -1.0 if tube.end < 0.0 else 1.0
+        found = Misplaced(joint, element, sign * joint.origin.xyz[tube.axis], sign * tube.end)
+        gap = abs(found.place - found.length)
         across, position = _across(joint, tube), element.origin.position
         own = tubes.get(joint.child or "")
-        ended.update([joint.parent] if abs(found.place - found.length) <= EXACT else [])
+        if gap <= EXACT:
+            ended.add(joint.parent)
         is_only = carried[joint.parent] == 1 and joint.type in ("revolute", "continuous")
-        is_off = abs(found.place - found.length) > PART * found.length
+        is_off = gap > PART * found.length
         is_length_of_next = own is not None and abs(abs(own.end) - found.place) <= EXACT
         if across <= tube.width and abs(found.place + found.length) <= EXACT and joint.child in model.extents:
             if not _is_carried(joint, model):
@@ -93,7 +94,7 @@ def along_tubes(model: Model) -> Iterator[Misplaced]:
         elif is_only and is_off and across <= _BESIDE * tube.width and is_length_of_next:
             at_length_of_next.setdefault(position, found)
         elif is_only and across <= EXACT and joint.parent not in meshed:
-            if abs(found.place - found.length) <= EXACT:
+            if gap <= EXACT:
                 ends.add(position)
             elif is_off:
                 off.setdefault(position, found)

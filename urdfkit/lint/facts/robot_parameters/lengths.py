@@ -42,7 +42,7 @@ _MEASURING = r"(?i)(?:dead|encoder|tracking|measuring|passive|odometry)[_ ]?whee
 """Matches the names of wheels that carry nothing, and that models often leave out."""
 
 _UNITS = (100.0, 1000.0, 1.0 / 0.0254)
-"""Factors of wheels in centimetres, millimetres and inches, as some drivers read them."""
+"""Factors of lengths in centimetres, millimetres and inches, as some drivers read them."""
 
 _SIDES = frozenset(
     (

@@ -68,11 +68,8 @@ def wrong_inputs(model: Model) -> Iterator[tuple[Source, Named, str]]:
                 line = text[text.rfind("\n", 0, at.start()) + 1 : at.start()]
                 if at[2] not in _EVERY or not accepted or at[2] in accepted or re.match(r"\s*(?:#|//|\*)", line):
                     continue
-                yield (
-                    Source(shown_path(path), text),
-                    Named(at[2], at.start(2)),
-                    _message(found[0], at[2], accepted),
-                )
+                place = Named(at[2], at.start(2))
+                yield Source(shown_path(path), text), place, _message(found[0], at[2], accepted)
 
 
 def _message(controller: str, name: str, accepted: set[str]) -> str:

@@ -16,7 +16,10 @@ class ParameterContradictsRobot(RobotRule):
     - a controller that takes commands by index, such as ``ForwardCommandController``, whose joints are in a different
       order from those in the parameters of a node, or whose order for one limb differs from that for the others
 
-    The rule does not check wheels if another description in these packages has continuous joints.
+    Lengths in centimetres, millimetres or inches are accepted, and those of wheels that only measure. A file is not
+    checked if another one has the same parameters with the values of this robot. A node may have further lists in
+    another order if one of its lists has the order of the controller. The rule does not check wheels if another
+    description in these packages has continuous joints.
 
     ## Why is this bad?
     The node computes odometry, speeds or joint positions for a different robot, or sends commands to the wrong joints.
